@@ -1,0 +1,46 @@
+#pragma once
+// The one table of evaluated stages of a frame. A (material, shader time, entity colours) triple is evaluated once, in
+// double precision; both renderers read the result.
+
+#include <unordered_map>
+#include <vector>
+
+#include "scene/material.hpp"
+#include "shaders/shared/stage.h"
+
+namespace q3rt {
+
+struct StageRange {
+    uint32_t first = 0, count = 0;
+};
+
+/// What of an entity enters a stage.
+struct StageInputs {
+    double shaderTimeSeconds = 0; ///< scene time - entity shader time (the material's own offset is subtracted here)
+    U8vec4 entityColor{255};
+    vec2 entityTexCoord{0};
+    bool hasEntity = false; ///< false: world, polys, 2D: entity colours are 0
+};
+
+class StageTable {
+  public:
+    StageTable(const MaterialLibrary& materials, const TextureLibrary& textures, float identityLight)
+        : m_materials(materials), m_textures(textures), m_identityLight(identityLight) {}
+    /// Forgets the last frame. Keeps its memory.
+    void beginFrame();
+    StageRange evaluate(MaterialId material, const StageInputs& inputs);
+    const std::vector<StageState>& states() const { return m_states; }
+
+  private:
+    const MaterialLibrary& m_materials;
+    const TextureLibrary& m_textures;
+    float m_identityLight;
+    std::vector<StageState> m_states;
+    std::unordered_map<uint64_t, std::vector<std::pair<size_t, StageRange>>> m_known; ///< by hash of the inputs
+    std::vector<std::pair<MaterialId, StageInputs>> m_keys;
+};
+
+/// One stage at one time; pure.
+StageState evaluateStage(const Material& material, const Stage& stage, const StageInputs& inputs, float identityLight);
+
+} // namespace q3rt

@@ -1,0 +1,18 @@
+// One spelling of types for C++ and GLSL. Scalar block layout everywhere; no bool in shared structures.
+#ifndef Q3RT_SHARED_TYPES_H
+#define Q3RT_SHARED_TYPES_H
+#ifdef __cplusplus
+#include <cstdint>
+#include "math/vector.hpp"
+namespace q3rt {
+using uint = uint32_t;
+}
+#define SHARED_BEGIN namespace q3rt {
+#define SHARED_END }
+#define SHARED_CONST inline constexpr uint
+#else
+#define SHARED_BEGIN
+#define SHARED_END
+#define SHARED_CONST const uint
+#endif
+#endif
