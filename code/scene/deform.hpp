@@ -1,0 +1,29 @@
+#pragma once
+// deformVertexes on the CPU, in double where time enters: one result for the rasteriser and the acceleration structures.
+
+#include <string>
+#include <vector>
+
+#include "scene/material.hpp"
+#include "scene/scene_types.hpp"
+#include "shaders/shared/vertex.h"
+
+namespace q3rt {
+
+struct DeformContext {
+    double shaderTimeSeconds = 0; ///< entity-relative
+    int sceneTimeMs = 0;          ///< bulge uses it
+    vec3 viewForward{1, 0, 0}, viewLeft{0, 1, 0}, viewUp{0, 0, 1}; ///< in the space of the vertices
+    float axisScale = 1;          ///< |axis[0]| if nonNormalizedAxes, else 1
+    bool mirrored = false;
+    vec3 lightDirection{0};       ///< model space (projection shadow)
+    vec3 worldUpInModel{0, 0, 1};
+    float heightAboveShadowPlane = 0;
+    const std::array<std::string, 8>* text = nullptr;
+};
+
+/// Applies the material's deforms in order to a batch; `indices` are relative to `vertices`. Text may change both.
+void deformVertices(const Material& material, const DeformContext& context, std::vector<Vertex>& vertices,
+                    std::vector<uint32_t>& indices);
+
+} // namespace q3rt

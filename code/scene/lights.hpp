@@ -1,0 +1,59 @@
+#pragma once
+// Lights by rule, never by texture name. Units: luxel units (spec of baked light): irradiance 63.75 shows a texture at
+// its own brightness; a surface light V is a Lambertian emitter of radiosity 0.75 V, radiance 0.75 V / pi.
+
+#include <vector>
+
+#include "scene/world.hpp"
+
+namespace q3rt {
+
+struct TriangleLight {
+    vec3 corner[3];  ///< world space, clockwise seen from the lit side as the surface is
+    vec3 normal{0};  ///< unit, toward the lit side
+    float areaQu2 = 0;
+    vec3 radiance{0}; ///< luxel units / pi, colour included
+    bool twoSided = false;
+    int surface = -1; ///< world surface it came from
+    int bspModel = 0; ///< 0 world, else the submodel that moves it
+    int cluster = -1; ///< of its centre, nudged to the lit side
+};
+
+struct SunLight {
+    vec3 direction{0}; ///< toward the sun, unit
+    vec3 irradiance{0}; ///< luxel units at normal incidence
+    float halfAngleRadians = 0;
+};
+
+struct SkyLight {
+    float radiosity = 0; ///< of sky polygons with q3map_surfacelight, luxel units
+    vec3 color{1};
+    int surface = -1;
+};
+
+struct PointLight {
+    vec3 origin{0};
+    vec3 intensity{0}; ///< 7500 V colour: irradiance = intensity cos / d^2, d at least 16
+    bool spot = false;
+    vec3 direction{0};
+    float cosOuter = -1;
+};
+
+struct LightSet {
+    std::vector<TriangleLight> triangles;
+    std::vector<SunLight> suns; ///< of drawn skies
+    std::vector<SkyLight> skies;
+    std::vector<PointLight> points; ///< surviving light entities
+};
+
+/// All lights of a map. Emissive surfaces are those drawn with q3map_surfacelight > 0 and no sky.
+LightSet extractLights(const World& world, const MaterialLibrary& materials);
+
+/// Row = cluster (last row: outside, all lights): indices of the triangle lights potentially visible from it.
+struct LightTable {
+    std::vector<uint32_t> offset; ///< clusterCount + 2 entries: row r is [offset[r], offset[r + 1])
+    std::vector<uint32_t> lights;
+};
+LightTable buildLightTable(const World& world, const LightSet& lights, bool cull);
+
+} // namespace q3rt
