@@ -52,6 +52,8 @@ class EngineServices : public FileSource {
     virtual int runCinematic(int handle) = 0;
     virtual void uploadCinematic(int handle) = 0; ///< calls back Renderer::uploadCinematic
     virtual void writeVideoFrame(std::span<const uint8_t> bytes) = 0;
+    /// False on our headless host: no SDL, no window, frames stay in images.
+    virtual bool wantsWindow() = 0;
     virtual void inputInit(void* sdlWindow) = 0;
     virtual void inputShutdown() = 0;
     virtual void inputRestart() = 0;

@@ -1,0 +1,67 @@
+#pragma once
+// The entities, polys and deformed world surfaces of one view as triangles: animated, deformed, lit, with materials
+// chosen. Both renderers draw the result; nothing here is culled by the view (the rasteriser does that itself).
+
+#include <vector>
+
+#include "scene/deform.hpp"
+#include "scene/model.hpp"
+#include "scene/scene_types.hpp"
+#include "scene/stage_table.hpp"
+#include "scene/world.hpp"
+
+namespace q3rt {
+
+/// One entity resolved for drawing. Number 0 of ViewGeometry::entities is the world itself.
+struct EntityRecord {
+    mat4 worldFromModel{1.0f};
+    EntityLight light;
+    StageInputs stage;
+    vec3 eyeInModel{0};   ///< view origin in model space (spec of models 2.1)
+    uint32_t flags = 0;   ///< entityFlag bits
+    int sceneIndex = -1;  ///< index in the view's entities, -1 the world
+    Bounds worldBounds;   ///< for culling; empty where unknown (never culled)
+    int inlineModel = -1; ///< BSP submodel to draw with this transform (its surfaces are not copied here), -1 none
+};
+
+/// A run of triangles of one material.
+struct EntitySurface {
+    MaterialId material = 0;
+    uint32_t entity = 0;  ///< in ViewGeometry::entities
+    int fog = 0;
+    uint32_t firstVertex = 0, vertexCount = 0;
+    uint32_t firstIndex = 0, indexCount = 0; ///< in ViewGeometry::indices, absolute vertex numbers
+    bool isPoly = false;          ///< sorts as the world
+    int worldSurface = -1;        ///< the deformed world surface it replaces, -1 none
+    const ModelSurface* source = nullptr; ///< model surface it came from, for caching
+};
+
+struct ViewGeometry {
+    std::vector<EntityRecord> entities;
+    std::vector<EntitySurface> surfaces;
+    std::vector<Vertex> vertices; ///< model space of their entity (world space for entity 0, sprites, rails, polys)
+    std::vector<uint32_t> indices;
+    void clear();
+};
+
+struct ViewGeometrySettings {
+    float identityLight = 1;
+    float ambientScale = 0.6f, directedScale = 1.0f;
+    float lodScale = 5;
+    int lodBias = 0;
+    int railWidth = 16, railCoreWidth = 6, railSegmentLength = 32;
+    bool drawEntities = true;
+    bool isPortalView = false, mirrored = false;
+    bool deformWorld = true; ///< append deformed copies of world surfaces whose material has deforms
+};
+
+/// `world` may be null (menus). `frame` holds the lists that `view` has ranges in; `eye` is the view's own, or a portal's.
+void buildViewGeometry(const FrameCommands& frame, const SceneView& view, const Orientation& eye, const World* world,
+                       const ModelLibrary& models, const MaterialLibrary& materials,
+                       const ViewGeometrySettings& settings, ViewGeometry& out);
+
+/// Lighting of a point for an entity (spec of models 2.9, steps 1 to 6).
+EntityLight computeEntityLight(const World* world, const vec3& sunDirection, const SceneEntity& entity,
+                               const FrameCommands& frame, const SceneView& view, const ViewGeometrySettings& settings);
+
+} // namespace q3rt
