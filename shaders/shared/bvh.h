@@ -1,0 +1,46 @@
+// Our own two-level tree as the shaders read it. Scalar layout. Bytes: 64 a node, 48 a triangle, 80 an instance.
+#ifndef Q3RT_SHARED_BVH_H
+#define Q3RT_SHARED_BVH_H
+#include "types.h"
+SHARED_BEGIN
+
+// Set in BvhNode::left/right: the child is a leaf, the low bits its first item.
+SHARED_CONST kBvhLeafBit = 0x80000000u;
+// Deepest path of any tree that a builder returns; the traversal stack of one level is that long.
+SHARED_CONST kBvhMaxDepth = 64u;
+
+// Both children's boxes stand in one node, so that one visit decides both (Aila and Laine 2009, "Understanding the
+// Efficiency of Ray Traversal on GPUs"). An absent child is a leaf of 0 items with an inverted box, which no ray enters.
+struct BvhNode {
+    vec3 leftMins;
+    uint left; // node index, or kBvhLeafBit | first item
+    vec3 leftMaxs;
+    uint leftCount; // items of a leaf, 0 for an inner child
+    vec3 rightMins;
+    uint right;
+    vec3 rightMaxs;
+    uint rightCount;
+};
+
+// Vertices are stored in leaf order and not shared: one cache line and a half a triangle, no index fetch.
+struct BvhTriangle {
+    vec3 corner0;
+    uint primitive; // triangle number in its geometry
+    vec3 corner1;
+    uint geometry; // geometry number in its structure | kBvhOpaqueBit
+    vec3 corner2;
+    uint reserved;
+};
+SHARED_CONST kBvhOpaqueBit = 0x80000000u; // no accept function is called for it
+
+struct BvhInstance {
+    vec4 modelFromWorld[3]; // rows of the affine transform
+    uint root;              // node index of the model's tree
+    uint firstTriangle;     // added to the leaf items of that tree
+    uint customIndex;       // the scene's own number, 24 bits
+    uint mask;              // visible to a ray when mask & rayMask != 0
+    uint reserved[4];
+};
+
+SHARED_END
+#endif
