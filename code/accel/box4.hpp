@@ -16,7 +16,8 @@ struct Box4 {
 
     Box4() = default;
     explicit Box4(const Bounds& box)
-        : mins{box.mins.x, box.mins.y, box.mins.z, 0}, maxs{box.maxs.x, box.maxs.y, box.maxs.z, 0} {}
+        : mins{box.mins.x, box.mins.y, box.mins.z, 0}
+        , maxs{box.maxs.x, box.maxs.y, box.maxs.z, 0} {}
     void add(const Box4& other) {
         mins = minimum(mins, other.mins);
         maxs = maximum(maxs, other.maxs);

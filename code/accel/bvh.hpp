@@ -1,10 +1,12 @@
 #pragma once
-// Bounding volume hierarchies over boxes: the builders of our own trees (static parts and models once at load, the scene
-// over instances each frame). All give the same child-pair nodes (shaders/shared/bvh.h); they differ in time and quality.
+// Bounding volume hierarchies over boxes: the builders of our own trees (static parts and models once at load, the
+// scene over instances each frame). All give the same child-pair nodes (shaders/shared/bvh.h); they differ in time and
+// quality.
 //
-//   buildSah      binned surface-area heuristic (Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies")
-//   buildMorton   sort by 30-bit Morton code, split at the highest differing bit (Lauterbach et al. 2009, Karras 2012)
-//   buildPairing  plain closest-centroid pairing (Park and Baek 2021, section 3.1): the benchmark's baseline only
+//   buildSah      binned surface-area heuristic (Wald 2007, "On fast Construction of SAH-based Bounding Volume
+//   Hierarchies") buildMorton   sort by 30-bit Morton code, split at the highest differing bit (Lauterbach et al. 2009,
+//   Karras 2012) buildPairing  plain closest-centroid pairing (Park and Baek 2021, section 3.1): the benchmark's
+//   baseline only
 //
 // Items whose box is not finite are left out of the tree and counted. Every path is at most kBvhMaxDepth long.
 
@@ -18,10 +20,10 @@
 namespace q3rt {
 
 struct Bvh {
-    std::vector<BvhNode> nodes;   ///< [0] the root; never empty
-    std::vector<uint32_t> order;  ///< leaf item -> input item
-    Bounds bounds;                ///< of all items in the tree; empty if none
-    uint32_t rejectedCount = 0;   ///< items with a non-finite box
+    std::vector<BvhNode> nodes;  ///< [0] the root; never empty
+    std::vector<uint32_t> order; ///< leaf item -> input item
+    Bounds bounds;               ///< of all items in the tree; empty if none
+    uint32_t rejectedCount = 0;  ///< items with a non-finite box
 };
 
 struct BvhBuildSettings {
@@ -41,7 +43,8 @@ Bvh buildPairing(std::span<const Bounds> items);
 /// when it has grown too much. `items` is in input order and must have the size the tree was built with.
 float refit(Bvh& bvh, std::span<const Bounds> items);
 
-/// Expected cost of a random ray that hits the root: sum over nodes of area(child) / area(root) x (visit or item tests).
+/// Expected cost of a random ray that hits the root: sum over nodes of area(child) / area(root) x (visit or item
+/// tests).
 float surfaceAreaCost(const Bvh& bvh, float traversalCost = 1.0f);
 /// Longest path from the root to a leaf, counted in nodes.
 uint32_t depthOf(const Bvh& bvh);
@@ -51,9 +54,9 @@ std::vector<Bounds> triangleBounds(std::span<const vec3> positions);
 
 /// Triangles in leaf order as the shaders read them. `geometry` and `primitive` a triangle: what a hit reports.
 struct TriangleSource {
-    std::span<const vec3> positions;       ///< 3 a triangle
-    std::span<const uint32_t> geometry;    ///< a triangle: geometry number | kBvhOpaqueBit; empty: 0 and opaque
-    std::span<const uint32_t> primitive;   ///< a triangle: its number in the geometry; empty: its index
+    std::span<const vec3> positions;     ///< 3 a triangle
+    std::span<const uint32_t> geometry;  ///< a triangle: geometry number | kBvhOpaqueBit; empty: 0 and opaque
+    std::span<const uint32_t> primitive; ///< a triangle: its number in the geometry; empty: its index
 };
 std::vector<BvhTriangle> leafTriangles(const Bvh& bvh, const TriangleSource& source);
 

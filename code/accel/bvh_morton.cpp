@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <utility>
 
 #include "accel/bvh_tree.hpp"
 
@@ -65,7 +66,9 @@ std::vector<Key> mortonKeys(std::span<const BuildItem> items) {
 class MortonBuilder {
   public:
     MortonBuilder(std::span<const BuildItem> items, std::span<const Key> keys, uint32_t maxLeafItems)
-        : m_items(items), m_keys(keys), m_maxLeafItems(maxLeafItems) {
+        : m_items(items)
+        , m_keys(keys)
+        , m_maxLeafItems(maxLeafItems) {
         m_tree.reserve(std::max<size_t>(items.size(), 1));
         m_tree.emplace_back();
     }

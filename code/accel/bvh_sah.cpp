@@ -33,7 +33,9 @@ struct Range {
 
 class SahBuilder {
   public:
-    SahBuilder(std::vector<BuildItem>& items, const BvhBuildSettings& settings) : m_items(items), m_settings(settings) {
+    SahBuilder(std::vector<BuildItem>& items, const BvhBuildSettings& settings)
+        : m_items(items)
+        , m_settings(settings) {
         m_tree.resize(std::max<size_t>(items.size(), 1));
     }
 
@@ -143,12 +145,12 @@ class SahBuilder {
         } else {
             const float low = range.centres.mins[split.axis], scale = binScale(range, split.axis);
             const auto begin = m_items.begin() + range.first;
-            middle = static_cast<uint32_t>(
-                std::partition(begin, begin + range.count,
-                               [&](const BuildItem& item) {
-                                   return binOf(item.box.doubleCentre()[split.axis], low, scale) < split.bin;
-                               }) -
-                m_items.begin());
+            middle = static_cast<uint32_t>(std::partition(begin, begin + range.count,
+                                                          [&](const BuildItem& item) {
+                                                              return binOf(item.box.doubleCentre()[split.axis], low,
+                                                                           scale) < split.bin;
+                                                          }) -
+                                           m_items.begin());
         }
         sides[0] = measure(range.first, middle - range.first);
         sides[1] = measure(middle, range.first + range.count - middle);

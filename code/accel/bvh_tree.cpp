@@ -12,7 +12,7 @@ bool isFinite(const Bounds& box) {
     return true;
 }
 
-/// No ray enters it: every slab test gives near > far.
+/// An empty box: adds nothing to areas and unions.
 constexpr float kInverted = std::numeric_limits<float>::max();
 
 void storeChild(BvhNode& node, int side, const BuildChild& child, uint32_t index) {

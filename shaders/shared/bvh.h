@@ -10,7 +10,7 @@ SHARED_CONST kBvhLeafBit = 0x80000000u;
 SHARED_CONST kBvhMaxDepth = 64u;
 
 // Both children's boxes stand in one node, so that one visit decides both (Aila and Laine 2009, "Understanding the
-// Efficiency of Ray Traversal on GPUs"). An absent child is a leaf of 0 items with an inverted box, which no ray enters.
+// Efficiency of Ray Traversal on GPUs"). An absent child is a leaf of 0 items.
 struct BvhNode {
     vec3 leftMins;
     uint left; // node index, or kBvhLeafBit | first item
