@@ -193,7 +193,7 @@ TEST(Traversal, AgreesWithEmbreeAndDoubleDecidesDisagreements) {
         if (ours.hit == theirs && (!theirs || std::abs(ours.t - ray.ray.tfar) <= 1e-5f * ray.ray.tfar)) continue;
         ++disagreements;
         const double truth = closestInDouble(positions, origin, direction);
-        const auto relativeError = [truth](bool hit, float t) {
+        const auto relativeError = [truth](bool hit, float t) -> double {
             if (std::isinf(truth)) return hit ? 1.0 : 0.0;
             return hit ? std::abs(t - truth) / truth : 1.0;
         };
