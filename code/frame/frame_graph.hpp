@@ -1,0 +1,159 @@
+#pragma once
+// A frame as declared passes. Built anew each frame: add passes in drawing order, compile (pure CPU, printable), run.
+//
+//   ImageId hdr = trace(graph, ...);                        // each pass is one function of this shape
+//   ImageId out = addTonemap(graph, hdr, settings);
+//
+// `declare` runs at once and may only read / write / create; `record` runs in FrameExecutor::run, captures by value and
+// may only emit commands. Every write makes a new version of the handle; reading an old version after a write is an
+// error. A pass nobody needs (its results unread, nothing imported written, not kept) is dropped.
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "frame/access.hpp"
+
+namespace q3rt {
+
+class GpuImage;
+class Buffer;
+class FrameGraph;
+class PassContext;
+
+inline constexpr uint32_t kNoResource = ~0u;
+
+struct ImageId {
+    uint32_t index = kNoResource;
+    uint32_t version = 0;
+    explicit operator bool() const { return index != kNoResource; }
+};
+struct BufferId {
+    uint32_t index = kNoResource;
+    uint32_t version = 0;
+    explicit operator bool() const { return index != kNoResource; }
+};
+
+struct GraphImageInfo {
+    VkExtent2D extent{};
+    VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
+    uint32_t mipCount = 1;
+    uint32_t layerCount = 1;
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+    bool operator==(const GraphImageInfo&) const = default;
+};
+
+/// Handed to `declare`.
+class PassBuilder {
+  public:
+    void read(ImageId image, const Access& how);
+    void read(BufferId buffer, const Access& how);
+    /// Changes the contents; what was there stays where the pass doesn't write.
+    [[nodiscard]] ImageId write(ImageId image, const Access& how);
+    [[nodiscard]] BufferId write(BufferId buffer, const Access& how);
+    /// A transient image of this frame, first written here. Contents before are undefined: clear or cover it.
+    [[nodiscard]] ImageId create(const char* name, const GraphImageInfo& info, const Access& how);
+    [[nodiscard]] BufferId create(const char* name, VkDeviceSize bytes, const Access& how);
+    /// The pass has an effect that the graph can't see (a readback, a present): never dropped.
+    void keep();
+
+  private:
+    friend class FrameGraph;
+    PassBuilder(FrameGraph& graph, uint32_t pass)
+        : m_graph(graph)
+        , m_pass(pass) {}
+    FrameGraph& m_graph;
+    uint32_t m_pass;
+};
+
+/// One resource of a frame.
+struct GraphResource {
+    std::string name;
+    bool image = true;
+    GraphImageInfo info;    // images
+    VkDeviceSize bytes = 0; // buffers
+    uint32_t version = 0;   // newest
+    GpuImage* importedImage = nullptr;
+    Buffer* importedBuffer = nullptr;
+    VkImage foreignImage = VK_NULL_HANDLE; // a swapchain image
+    VkImageView foreignView = VK_NULL_HANDLE;
+    bool imported = false;
+    ResourceState initial;
+    // Filled by compile():
+    VkImageUsageFlags imageUsage = 0;
+    VkBufferUsageFlags bufferUsage = 0;
+    uint32_t firstPass = kNoResource; // of the compiled order
+    uint32_t lastPass = kNoResource;
+    ResourceState final;
+};
+
+struct GraphUse {
+    uint32_t resource;
+    uint32_t version; // read, or produced
+    Access how;
+    bool write;
+    bool fresh; // created here
+};
+
+struct GraphBarrier {
+    uint32_t resource;
+    ResourceState from;
+    ResourceState to;
+    /// First use of a transient: old contents are dropped; `from` is filled in from the cached image when run.
+    bool discard = false;
+};
+
+struct GraphPass {
+    std::string name;
+    std::vector<GraphUse> uses;
+    bool kept = false;
+    bool culled = false;
+    std::function<void(PassContext&)> record;
+    std::vector<GraphBarrier> barriers; // before the pass; filled by compile()
+};
+
+class FrameGraph {
+  public:
+    using Declare = std::function<void(PassBuilder&)>;
+    using Record = std::function<void(PassContext&)>;
+
+    /// `name` is the debug label, the timer row and the dump file's name.
+    void addPass(const char* name, const Declare& declare, Record record);
+
+    /// An image that lives beyond the frame (history, targets); its state is kept in GpuImage::state.
+    ImageId importImage(const char* name, GpuImage& image);
+    BufferId importBuffer(const char* name, Buffer& buffer);
+    /// The swapchain's image: undefined at first.
+    ImageId importForeign(const char* name, VkImage image, VkImageView view, const GraphImageInfo& info);
+    /// For tests, and for things with no handle of ours (a token that orders acceleration-structure builds and traces).
+    ImageId importImage(const char* name, const GraphImageInfo& info, const ResourceState& initial);
+    BufferId importBuffer(const char* name, const ResourceState& initial);
+
+    const GraphImageInfo& info(ImageId image) const;
+    VkExtent2D extent(ImageId image) const { return info(image).extent; }
+
+    /// Order, culling, barriers, lifetimes. Throws UsageError naming pass and resource on a wrong declaration.
+    void compile();
+    bool compiled() const { return m_compiled; }
+    /// The compiled frame: a line a pass, a line a barrier, lifetimes at the end.
+    std::string print() const;
+
+    const std::vector<GraphPass>& passes() const { return m_passes; } // in order; `culled` ones don't run
+    const std::vector<GraphResource>& resources() const { return m_resources; }
+
+  private:
+    friend class PassBuilder;
+    friend class FrameExecutor;
+    uint32_t use(uint32_t pass, uint32_t resource, uint32_t version, const Access& how, bool write);
+    uint32_t addResource(GraphResource resource);
+    void cullPasses();
+    void findLifetimes();
+    void placeBarriers();
+
+    std::vector<GraphPass> m_passes;
+    std::vector<GraphResource> m_resources;
+    bool m_compiled = false;
+};
+
+} // namespace q3rt
