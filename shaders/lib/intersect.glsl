@@ -40,6 +40,16 @@ struct TriangleHit {
     vec2 barycentric; // weights of corner 1 and 2
 };
 
+// Twice the area vector from the two shorter edges: of the three products of edge pairs, which are equal in exact
+// arithmetic, that one cancels least on slivers.
+vec3 stableNormal(vec3 e0, vec3 e1, vec3 e2)
+{
+    float l0 = dot(e0, e0), l1 = dot(e1, e1), l2 = dot(e2, e2);
+    if (l0 >= l1 && l0 >= l2)
+        return cross(e1, e2);
+    return l1 >= l2 ? cross(e2, e0) : cross(e0, e1);
+}
+
 // Hit in (tMin, tMax). Zero-area triangles are never hit (denominator 0).
 TriangleHit intersectTriangle(vec3 origin, vec3 direction, vec3 corner0, vec3 corner1, vec3 corner2, float tMin,
                               float tMax)
@@ -62,9 +72,10 @@ TriangleHit intersectTriangle(vec3 origin, vec3 direction, vec3 corner0, vec3 co
     float largest = max(u, max(v, w));
     if (smallest < 0.0 && largest > 0.0)
         return result;
-    vec3 normal = cross(e0, e1);
-    float denominator = 2.0 * dot(normal, direction);
-    float t = 2.0 * dot(v0, normal) / denominator;
+    // Edges of the untranslated corners: their rounding is relative to the edge, not to the distance of the origin.
+    vec3 normal = stableNormal(corner2 - corner0, corner0 - corner1, corner1 - corner2);
+    float denominator = dot(normal, direction);
+    float t = dot(v0, normal) / denominator;
     if (denominator == 0.0 || !(t > tMin && t < tMax))
         return result;
     float sum = u + v + w;

@@ -190,7 +190,9 @@ TEST(Traversal, AgreesWithEmbreeAndDoubleDecidesDisagreements) {
 #endif
         const bool theirs = ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
         ++cases;
-        if (ours.hit == theirs && (!theirs || std::abs(ours.t - ray.ray.tfar) <= 1e-5f * ray.ray.tfar)) continue;
+        // The origin is subtracted from every corner: half an ulp of the largest coordinate each, whatever t is.
+        const float tolerance = 1e-5f * ray.ray.tfar + 2 * 1260 * 0x1p-24f;
+        if (ours.hit == theirs && (!theirs || std::abs(ours.t - ray.ray.tfar) <= tolerance)) continue;
         ++disagreements;
         const double truth = closestInDouble(positions, origin, direction);
         const auto relativeError = [truth](bool hit, float t) -> double {
@@ -205,7 +207,7 @@ TEST(Traversal, AgreesWithEmbreeAndDoubleDecidesDisagreements) {
     EXPECT_EQ(cases, 100000u);
     // Grazing hits on slivers differ by rounding; double precision decides who is closer.
     RecordProperty("disagreements", static_cast<int>(disagreements));
-    EXPECT_LE(disagreements, cases / 1000);
+    EXPECT_LE(disagreements, cases / 10000);
     EXPECT_GE(2 * oursCloser, disagreements);
 }
 
