@@ -1,0 +1,84 @@
+// Direct illumination of one pixel: L, the factor that replaces baked light (1.0 = irradiance 63.75 luxel units).
+// One light is chosen among all that the point may see, in proportion to what it would give without a shadow; its
+// shadow ray decides. The expected value is the sum over all lights, whatever the number of choices.
+#ifndef Q3RT_RT_DIRECT_GLSL
+#define Q3RT_RT_DIRECT_GLSL
+#include "rt/grid.glsl"
+#include "rt/lights.glsl"
+
+vec3 shadowed(ShadingPoint point, vec3 irradiance, vec3 direction)
+{
+    if (lightWeight(irradiance) <= 0.0)
+        return vec3(0.0);
+    return traceVisible(point.origin, direction, 1.0, kMaskShadow) ? irradiance : vec3(0.0);
+}
+
+// Every light with its own shadow ray: rt_numRandomDL 0.
+vec3 sumAllLights(ShadingPoint point, RtLightRow row, uvec4 key)
+{
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < row.count; ++i) {
+        uint light = NumberTable(frame.lightIndices).at[row.first + i];
+        LightSample lit = sampleTriangle(light, point, randomNumbers(key, kDimensionLight + light).xy);
+        sum += shadowed(point, lit.irradiance, lit.direction);
+    }
+    for (uint i = 0u; i < frame.lightCount; ++i) {
+        vec2 random = randomNumbers(key, kDimensionLight + frame.triangleLightCount + i).xy;
+        LightSample lit = sampleOther(i, point, random, row.seesSky != 0u);
+        sum += shadowed(point, lit.irradiance, lit.direction);
+    }
+    return sum;
+}
+
+// Candidates are all lights of a short row; of a long one, a random light out of each of `candidates` equal shares.
+LightChoice chooseLight(ShadingPoint point, RtLightRow row, uvec4 key, uint choiceNumber)
+{
+    LightChoice choice = emptyChoice();
+    uint candidates = min(row.count, frame.candidatesPerChoice);
+    uint dimension = kDimensionLight + choiceNumber * (frame.triangleLightCount + frame.lightCount);
+    float share = candidates > 0u ? float(row.count) / float(candidates) : 0.0;
+    for (uint i = 0u; i < candidates; ++i) {
+        vec4 random = randomNumbers(key, dimension + i);
+        uint first = uint(float(i) * share);
+        uint end = i + 1u == candidates ? row.count : uint(float(i + 1u) * share);
+        uint inShare = min(uint(random.w * float(end - first)), end - first - 1u);
+        uint light = NumberTable(frame.lightIndices).at[row.first + first + inShare];
+        LightSample lit = sampleTriangle(light, point, random.xy);
+        lit.irradiance *= float(end - first);
+        choice = considerLight(choice, lit, random.z);
+    }
+    for (uint i = 0u; i < frame.lightCount; ++i) {
+        vec4 random = randomNumbers(key, dimension + frame.triangleLightCount + i);
+        choice = considerLight(choice, sampleOther(i, point, random.xy, row.seesSky != 0u), random.z);
+    }
+    return choice;
+}
+
+void directPixel(uvec2 pixelPosition)
+{
+    uint index = pixelIndex(pixelPosition);
+    RtPixel pixel = PixelTable(frame.pixels).at[index];
+    vec3 light = vec3(1.0);
+    if (pixel.lit != 0u && (frame.flags & kFrameIllumination) != 0u) {
+        ShadingPoint point;
+        point.position = pixel.position;
+        point.origin = offsetOrigin(pixel.position, pixel.error, pixel.geometricNormal);
+        point.normal = pixel.normal;
+        RtLightRow row = LightRowTable(frame.lightRows).at[lightRowOf(point.origin)];
+        uvec4 key = randomKey(pixelPosition);
+        vec3 irradiance = vec3(0.0);
+        if (frame.lightsPerPixel == 0u) {
+            irradiance = sumAllLights(point, row, key);
+        } else {
+            for (uint n = 0u; n < frame.lightsPerPixel; ++n) {
+                LightChoice choice = chooseLight(point, row, key, n);
+                irradiance += shadowed(point, chosenIrradiance(choice), choice.direction);
+            }
+            irradiance /= float(frame.lightsPerPixel);
+        }
+        light = (irradiance + ambientIrradiance(point.origin, point.normal) * frame.ambient) / kWhiteIrradiance;
+    }
+    ColorTable(frame.irradiance).at[index] = vec4(light, 1.0);
+}
+
+#endif

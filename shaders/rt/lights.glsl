@@ -1,0 +1,76 @@
+// The light table: which lights a point may see, and one sample of each. Above it stands only the choice.
+#ifndef Q3RT_RT_LIGHTS_GLSL
+#define Q3RT_RT_LIGHTS_GLSL
+#include "lib/light.glsl"
+#include "lib/offset.glsl"
+#include "lib/random.glsl"
+#include "rt/scene.glsl"
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer TriangleLightTable { RtTriangleLight at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightRowTable { RtLightRow at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightTable { RtLight at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer NodeTable { RtNode at[]; };
+
+// Random dimensions of the direct stage: a light's sample takes kDimensionLight + its number in the row.
+const uint kDimensionLens = 0u;
+const uint kDimensionChoice = 1u;
+const uint kDimensionLayer = 2u;
+const uint kDimensionLight = 16u;
+
+uvec4 randomKey(uvec2 pixel) { return uvec4(pixel, frame.frame, frame.seed); }
+
+// Row of the light table for a point off every surface. A point on a plane belongs to its back, as in the map; a point
+// outside all clusters has the last row: all lights.
+uint lightRowOf(vec3 point)
+{
+    if (frame.cullLights == 0u || frame.clusterCount == 0u)
+        return frame.clusterCount;
+    int node = 0;
+    while (node >= 0) {
+        RtNode at = NodeTable(frame.nodes).at[node];
+        node = dot(at.plane.normal, point) - at.plane.distance > 0.0 ? at.front : at.back;
+    }
+    int cluster = -2 - node;
+    return cluster >= 0 && cluster < int(frame.clusterCount) ? uint(cluster) : frame.clusterCount;
+}
+
+struct ShadingPoint {
+    vec3 position;
+    vec3 origin; // of shadow rays: clear of the surface
+    vec3 normal; // unit, shading
+};
+
+LightSample sampleTriangle(uint light, ShadingPoint point, vec2 random)
+{
+    RtTriangleLight l = TriangleLightTable(frame.triangleLights).at[light];
+    LightSample result = sampleTriangleLight(point.origin, point.normal, l.corner, l.edge1, l.edge2, l.normal, l.areaQu2,
+                                             l.radiance, l.twoSided != 0u, random.x, random.y);
+    // The ray ends in front of the light by the bound of the sampled point's error and of the ray's own rounding.
+    float side = dot(l.normal, result.direction) < 0.0 ? 1.0 : -1.0;
+    float end = l.error + dot(abs(result.direction), vec3(kTransformError));
+    result.direction += l.normal * (side * end);
+    return result;
+}
+
+LightSample sampleOther(uint light, ShadingPoint point, vec2 random, bool seesSky)
+{
+    RtLight l = LightTable(frame.lights).at[light];
+    LightSample result;
+    if (l.kind == kLightSphere) {
+        result = sampleSphereLight(point.origin, point.normal, l.position,
+                                   (frame.flags & kFrameSoftShadows) != 0u ? l.size : 0.0, l.power, random.x, random.y);
+        if (l.cosOuter > -1.0 && dot(normalize(result.direction), -l.axis) < l.cosOuter)
+            result.irradiance = vec3(0.0);
+        return result;
+    }
+    if (l.kind == kLightSun)
+        result = sampleSun(point.normal, l.position, (frame.flags & kFrameSoftShadows) != 0u ? l.size : 0.0, l.power,
+                           frame.farQu, random.x, random.y);
+    else
+        result = sampleSkyDome(point.normal, l.power, frame.farQu, random.x, random.y);
+    if (!seesSky)
+        result.irradiance = vec3(0.0);
+    return result;
+}
+
+#endif

@@ -1,0 +1,42 @@
+// The sky in a direction: box, then cloud stages, as the engine draws them (the sky is infinitely far: no parallax).
+#ifndef Q3RT_RT_SKY_GLSL
+#define Q3RT_RT_SKY_GLSL
+#include "rt/scene.glsl"
+
+struct SkyFace {
+    uint side; // 0..5: rt lf bk ft up dn
+    vec2 st;   // picture coordinates, t down
+};
+
+// Face and coordinates on it of a direction: table of the engine's sky box, s to the right and t up in [-1, 1].
+SkyFace findSkyFace(vec3 d)
+{
+    vec3 a = abs(d);
+    SkyFace face;
+    vec2 st;
+    if (a.x > a.y && a.x > a.z) {
+        face.side = d.x > 0.0 ? 0u : 1u;
+        st = vec2(d.x > 0.0 ? -d.y : d.y, d.z) / a.x;
+    } else if (a.y > a.z && a.y > a.x) {
+        face.side = d.y > 0.0 ? 2u : 3u;
+        st = vec2(d.y > 0.0 ? d.x : -d.x, d.z) / a.y;
+    } else {
+        face.side = d.z > 0.0 ? 4u : 5u;
+        st = vec2(-d.y, d.z > 0.0 ? -d.x : d.x) / a.z;
+    }
+    face.st = vec2(st.x + 1.0, 1.0 - st.y) * 0.5;
+    return face;
+}
+
+// Cloud coordinates: where the direction meets a sphere of radius R + height around a point R below the eye; the
+// coordinates are the angles of that point from the x and y axes, in radians. R = 4096 qu.
+vec2 cloudCoordinates(vec3 d, float height)
+{
+    const float radius = 4096.0;
+    float b = d.z * radius;
+    float p = -b + sqrt(b * b + 2.0 * radius * height + height * height);
+    vec3 q = normalize(d * p + vec3(0.0, 0.0, radius));
+    return vec2(acos(clamp(q.x, -1.0, 1.0)), acos(clamp(q.y, -1.0, 1.0)));
+}
+
+#endif

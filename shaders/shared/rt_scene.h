@@ -1,0 +1,204 @@
+// What the ray tracer's shaders read: one text for C++ and GLSL, scalar layout. Tables are reached by device address
+// from RtFrame, so that a frame needs one push constant, the texture array and the acceleration structure.
+#ifndef Q3RT_SHARED_RT_SCENE_H
+#define Q3RT_SHARED_RT_SCENE_H
+#include "types.h"
+#ifdef __cplusplus
+#define SHARED_ADDRESS uint64_t
+#define SHARED_UVEC2 glm::uvec2
+#else
+#define SHARED_ADDRESS uvec2
+#define SHARED_UVEC2 uvec2
+#endif
+SHARED_BEGIN
+
+// Visibility classes, the instance masks. A ray names the classes that it may meet.
+SHARED_CONST kMaskSolid = 0x01u;       // opaque and alpha-tested, seen by the eye
+SHARED_CONST kMaskLayer = 0x02u;       // blended, seen by the eye
+SHARED_CONST kMaskSolidMirror = 0x04u; // the same as secondary rays see them: the own body, not the view weapon
+SHARED_CONST kMaskLayerMirror = 0x08u;
+SHARED_CONST kMaskShadow = 0x10u; // blocks light
+SHARED_CONST kMaskSky = 0x20u;
+SHARED_CONST kMaskNearSolid = 0x40u; // depth hack: wins over everything that is not
+SHARED_CONST kMaskNearLayer = 0x80u;
+
+// Hit groups of the pipeline back end.
+SHARED_CONST kHitGroupRecord = 0u; // closest: fill the record; any: the shared accept function
+SHARED_CONST kHitGroupLayers = 1u; // any: collect
+SHARED_CONST kHitGroupCount = 2u;
+SHARED_CONST kMissRecord = 0u;
+SHARED_CONST kMissVisible = 1u;
+SHARED_CONST kMissLayers = 2u;
+
+// One instance of the top-level structure; its number is the instance's custom index.
+struct RtInstance {
+    SHARED_ADDRESS vertices;          // Vertex[]
+    SHARED_ADDRESS indices;           // uint[3] a triangle, absolute in `vertices`, in the structure's own order
+    SHARED_ADDRESS surfaceOfTriangle; // uint[], relative to firstSurface
+    uint firstSurface;
+    uint entity;
+};
+
+SHARED_CONST kSurfaceTested = 0x1u;   // has alpha-tested stages: the accept function decides
+SHARED_CONST kSurfaceCullBack = 0x2u; // back faces don't show (the engine's front-sided)
+SHARED_CONST kSurfaceCullFront = 0x4u;
+SHARED_CONST kSurfaceSky = 0x8u;
+SHARED_CONST kSurfaceFogVolume = 0x10u; // a fog brush's face: shows nothing itself
+
+// A run of triangles of one material, evaluated for this frame.
+struct RtSurface {
+    uint firstStage; // in the stage table
+    uint stageCount;
+    uint flags; // kSurface*
+    uint fog;   // 0 none
+    uint drawOrder; // among blended and decal surfaces: later drawn is higher, at least 1; 0 for ordinary solids
+    uint sky;       // index of RtSky if kSurfaceSky
+};
+
+struct RtEntity {
+    vec4 worldFromModel[3]; // rows
+    vec3 eyeInModel;        // view origin in model space
+    uint flags;
+    vec3 shaderTexture; // unused components of the engine's entity light: direction in model space
+    uint reserved;
+};
+
+struct RtTriangleLight {
+    vec3 corner;
+    float areaQu2;
+    vec3 edge1;
+    uint twoSided;
+    vec3 edge2;
+    float error; // bound of a sampled point's distance from the triangle's plane, qu
+    vec3 normal; // unit, lit side
+    uint reserved;
+    vec3 radiance; // luxel units / pi
+    uint reserved1;
+};
+
+SHARED_CONST kLightSphere = 0u;
+SHARED_CONST kLightSun = 1u;
+SHARED_CONST kLightSky = 2u;
+
+// Lights that are not triangles.
+struct RtLight {
+    vec3 position; // sphere: centre; sun: unit direction to it
+    uint kind;
+    vec3 power; // sphere: intensity, luxel units qu^2; sun, sky: irradiance, luxel units
+    float size; // sphere: radius, qu; sun: 1 - cos(half angle)
+    vec3 axis;  // spot: unit direction of its cone
+    float cosOuter; // -1: no cone
+};
+
+struct RtPlane {
+    vec3 normal;
+    float distance;
+};
+
+struct RtNode {
+    RtPlane plane;
+    int front; // >= 0 a node; c < 0: cluster -2 - c (so -1 is "outside" as in the map)
+    int back;
+};
+
+// Row of the light table: a cluster, or the last one for every point outside all clusters.
+struct RtLightRow {
+    uint first; // in lightIndices
+    uint count;
+    uint seesSky; // 0: no sky is potentially visible; suns and sky light cannot reach it
+};
+
+struct RtGridCell {
+    vec3 ambient; // luxel units
+    uint valid;   // 0: inside a wall
+    vec3 directed;
+    vec3 direction; // toward the light, as stored: not unit after interpolation
+};
+
+struct RtSky {
+    uint box[6]; // textures rt lf bk ft up dn
+    uint hasBox;
+    uint firstStage; // clouds
+    uint stageCount;
+    float cloudHeightQu;
+};
+
+struct RtFog {
+    vec3 color;
+    float depthForOpaque;
+    vec3 normal; // surface plane; depth below it = distance - dot(normal, p)
+    float distance;
+    uint hasSurface;
+};
+
+// What the primary stage leaves for the others; one a pixel, row by row.
+struct RtPixel {
+    vec3 position; // of the lit layer
+    uint lit;      // 0: nothing here takes light
+    vec3 error;    // of position, see lib/offset.glsl
+    float distance; // along the ray to the first solid, 0: none
+    vec3 normal;    // unit, shading, on the eye's side
+    vec3 geometricNormal; // unit, on the eye's side
+    vec3 albedo;   // A, times what the layers in front let through
+    vec3 emission; // B of all layers
+};
+
+SHARED_CONST kFrameNearEntities = 0x1u;
+SHARED_CONST kFrameLayers = 0x2u;
+SHARED_CONST kFrameIllumination = 0x4u;
+SHARED_CONST kFrameSoftShadows = 0x8u;
+SHARED_CONST kFrameGrid = 0x10u;
+SHARED_CONST kFrameSkySurfaces = 0x20u;
+SHARED_CONST kFrameAntialiasing = 0x40u;
+
+struct RtFrame {
+    SHARED_ADDRESS instances;
+    SHARED_ADDRESS surfaces;
+    SHARED_ADDRESS entities;
+    SHARED_ADDRESS stages;
+    SHARED_ADDRESS triangleLights;
+    SHARED_ADDRESS lightRows;
+    SHARED_ADDRESS lightIndices;
+    SHARED_ADDRESS lights;
+    SHARED_ADDRESS nodes;
+    SHARED_ADDRESS grid;
+    SHARED_ADDRESS skies;
+    SHARED_ADDRESS fogs;
+    SHARED_ADDRESS pixels;
+    SHARED_ADDRESS irradiance; // vec4[]: traced L (1.0 = irradiance 63.75), one a pixel
+    SHARED_ADDRESS radiance;   // vec4[]: mean radiance of all samples so far, one a pixel
+    vec3 eye;
+    uint flags; // kFrame*
+    vec3 forward;
+    float farQu; // longer than any line inside the map
+    vec3 left;   // scaled by the tangent of half the horizontal field of view
+    float timeSeconds;
+    vec3 up; // scaled, vertical
+    uint seed;
+    SHARED_UVEC2 size; // pixels
+    uint sample;       // of this view: 0 starts a new mean
+    uint frame;
+    uint triangleLightCount;
+    uint lightCount;
+    uint clusterCount;
+    uint lightsPerPixel; // rt_numRandomDL
+    uint candidatesPerChoice;
+    float ambient; // rt_ambient
+    float pixelAngle; // of one pixel at the centre, radians
+    uint layerOrderCount; // highest drawOrder of the frame
+    vec3 gridOrigin;
+    float identityLight;
+    vec3 gridCellSize;
+    uint skyCount;
+    ivec3 gridCounts;
+    uint cullLights; // rt_cullLights
+    vec3 forwardUnit;
+    uint accumulate;
+};
+
+struct RtPush {
+    SHARED_ADDRESS frame;
+};
+
+SHARED_END
+#endif

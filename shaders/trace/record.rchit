@@ -1,0 +1,10 @@
+// Closest hit of the pipeline back end: fills the record.
+#version 460
+#extension GL_EXT_ray_tracing : require
+#extension GL_GOOGLE_include_directive : require
+#include "trace/trace.glsl"
+
+layout(location = 0) rayPayloadInEXT Hit record;
+hitAttributeEXT vec2 barycentric;
+
+void main() { record = Hit(gl_HitTEXT, gl_InstanceCustomIndexEXT, gl_PrimitiveID, barycentric); }

@@ -1,0 +1,35 @@
+// Back end `pipeline`: hit shaders only fill a record, or call the shared functions of the stage.
+#ifndef Q3RT_TRACE_PIPELINE_GLSL
+#define Q3RT_TRACE_PIPELINE_GLSL
+#include "shared/rt_scene.h"
+#include "trace/trace.glsl"
+
+layout(set = 1, binding = 0) uniform accelerationStructureEXT sceneStructure;
+layout(location = 0) rayPayloadEXT Hit recordPayload;
+layout(location = 1) rayPayloadEXT uint visiblePayload;
+layout(location = 2) rayPayloadEXT LayerBatch layersPayload;
+
+Hit traceClosest(vec3 origin, vec3 direction, float tMin, float tMax, uint mask, bool cullBack)
+{
+    uint flags = cullBack ? gl_RayFlagsCullBackFacingTrianglesEXT : gl_RayFlagsNoneEXT;
+    traceRayEXT(sceneStructure, flags, mask, kHitGroupRecord, 0u, kMissRecord, origin, tMin, direction, tMax, 0);
+    return recordPayload;
+}
+
+bool traceVisible(vec3 origin, vec3 direction, float tMax, uint mask)
+{
+    visiblePayload = 0u;
+    traceRayEXT(sceneStructure, gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, mask,
+                kHitGroupRecord, 0u, kMissVisible, origin, 0.0, direction, tMax, 1);
+    return visiblePayload != 0u;
+}
+
+LayerBatch traceLayers(vec3 origin, vec3 direction, float tMax, uint mask, LayerKey after)
+{
+    layersPayload = emptyBatch(after);
+    traceRayEXT(sceneStructure, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsSkipClosestHitShaderEXT, mask, kHitGroupLayers, 0u,
+                kMissLayers, origin, 0.0, direction, tMax, 2);
+    return layersPayload;
+}
+
+#endif

@@ -1,0 +1,59 @@
+// Back end `query`: ray queries inside a compute shader.
+#ifndef Q3RT_TRACE_QUERY_GLSL
+#define Q3RT_TRACE_QUERY_GLSL
+#include "shared/rt_scene.h"
+#include "trace/trace.glsl"
+
+layout(set = 1, binding = 0) uniform accelerationStructureEXT sceneStructure;
+
+// Runs the accept function on every candidate until the query is settled.
+void settleQuery(rayQueryEXT query, vec3 direction)
+{
+    while (rayQueryProceedEXT(query)) {
+        if (acceptHit(rayQueryGetIntersectionInstanceCustomIndexEXT(query, false),
+                      rayQueryGetIntersectionPrimitiveIndexEXT(query, false),
+                      rayQueryGetIntersectionBarycentricsEXT(query, false), rayQueryGetIntersectionTEXT(query, false),
+                      direction))
+            rayQueryConfirmIntersectionEXT(query);
+    }
+}
+
+Hit traceClosest(vec3 origin, vec3 direction, float tMin, float tMax, uint mask, bool cullBack)
+{
+    rayQueryEXT query;
+    uint flags = cullBack ? gl_RayFlagsCullBackFacingTrianglesEXT : gl_RayFlagsNoneEXT;
+    rayQueryInitializeEXT(query, sceneStructure, flags, mask, origin, tMin, direction, tMax);
+    settleQuery(query, direction);
+    if (rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT)
+        return Hit(0.0, 0u, 0u, vec2(0.0));
+    return Hit(rayQueryGetIntersectionTEXT(query, true), rayQueryGetIntersectionInstanceCustomIndexEXT(query, true),
+               rayQueryGetIntersectionPrimitiveIndexEXT(query, true),
+               rayQueryGetIntersectionBarycentricsEXT(query, true));
+}
+
+bool traceVisible(vec3 origin, vec3 direction, float tMax, uint mask)
+{
+    rayQueryEXT query;
+    rayQueryInitializeEXT(query, sceneStructure, gl_RayFlagsTerminateOnFirstHitEXT, mask, origin, 0.0, direction, tMax);
+    settleQuery(query, direction);
+    return rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT;
+}
+
+LayerBatch traceLayers(vec3 origin, vec3 direction, float tMax, uint mask, LayerKey after)
+{
+    LayerBatch batch = emptyBatch(after);
+    rayQueryEXT query;
+    rayQueryInitializeEXT(query, sceneStructure, gl_RayFlagsNoOpaqueEXT, mask, origin, 0.0, direction, tMax);
+    while (rayQueryProceedEXT(query)) {
+        uint instance = rayQueryGetIntersectionInstanceCustomIndexEXT(query, false);
+        uint triangle = rayQueryGetIntersectionPrimitiveIndexEXT(query, false);
+        vec2 barycentric = rayQueryGetIntersectionBarycentricsEXT(query, false);
+        float t = rayQueryGetIntersectionTEXT(query, false);
+        float distance = layerDistance(instance, triangle, barycentric, t, direction);
+        if (distance > 0.0)
+            insertLayer(batch, Layer(LayerKey(distance, instance, triangle), t, barycentric));
+    }
+    return batch;
+}
+
+#endif
