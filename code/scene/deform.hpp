@@ -1,6 +1,8 @@
 #pragma once
-// deformVertexes on the CPU, in double where time enters: one result for the rasteriser and the acceleration structures.
+// deformVertexes on the CPU, in double where time enters: one result for the rasteriser and the acceleration
+// structures.
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -11,12 +13,13 @@
 namespace q3rt {
 
 struct DeformContext {
-    double shaderTimeSeconds = 0; ///< entity-relative
-    int sceneTimeMs = 0;          ///< bulge uses it
+    double shaderTimeSeconds = 0;                                  ///< entity-relative
+    int sceneTimeMs = 0;                                           ///< bulge uses it
     vec3 viewForward{1, 0, 0}, viewLeft{0, 1, 0}, viewUp{0, 0, 1}; ///< in the space of the vertices
-    float axisScale = 1;          ///< |axis[0]| if nonNormalizedAxes, else 1
+    vec3 worldForward{1, 0, 0}; ///< view forward in world axes: sprites get its negative as normal, unrotated
+    float axisScale = 1;        ///< |axis[0]| if nonNormalizedAxes, else 1; sprites are divided by it
     bool mirrored = false;
-    vec3 lightDirection{0};       ///< model space (projection shadow)
+    vec3 lightDirection{0}; ///< model space (projection shadow)
     vec3 worldUpInModel{0, 0, 1};
     float heightAboveShadowPlane = 0;
     const std::array<std::string, 8>* text = nullptr;

@@ -44,11 +44,13 @@ class ModelLibrary {
     int registerSkin(std::string_view name);
     /// One handle a BSP submodel, "*0", "*1", ...
     void addInlineModels(const World& world);
-    const Model& get(int handle) const;         ///< out of range: the bad model
-    const Skin* skin(int handle) const;         ///< nullptr: 0 or out of range
+    const Model& get(int handle) const; ///< out of range: the bad model
+    const Skin* skin(int handle) const; ///< nullptr: 0 or out of range
     size_t count() const { return m_models.size(); }
+    const MaterialLibrary& materials() const { return m_materials; }
     /// False (identity, origin 0) if there is no such tag. `fraction` weights endFrame.
-    bool lerpTag(int handle, int startFrame, int endFrame, float fraction, std::string_view tag, Orientation& out) const;
+    bool lerpTag(int handle, int startFrame, int endFrame, float fraction, std::string_view tag,
+                 Orientation& out) const;
     Bounds modelBounds(int handle, const World* world) const; ///< zeros if unknown
 
   private:
@@ -59,7 +61,8 @@ class ModelLibrary {
     std::unordered_map<std::string, int> m_modelByName, m_skinByName;
 };
 
-/// Material of one model surface for an entity: customShader, else customSkin, else the model's own (spec of models 2.7).
+/// Material of one model surface for an entity: customShader, else customSkin, else the model's own (spec of
+/// models 2.7).
 MaterialId surfaceMaterial(const ModelLibrary& models, const ModelSurface& surface, int customShader, int customSkin,
                            int skinNumber);
 
@@ -75,7 +78,7 @@ int chooseLod(const Model& model, int frame, const vec3& entityOrigin, const Ori
 
 /// Lighting of an entity (spec of models 2.9).
 struct EntityLight {
-    vec3 ambient{0};   ///< 0..255
+    vec3 ambient{0}; ///< 0..255
     vec3 directed{0};
     vec3 direction{0}; ///< in the entity's axes
 };

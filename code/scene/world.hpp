@@ -31,21 +31,22 @@ struct PatchGrid {
 struct WorldSurface {
     BspSurfaceType type = BspSurfaceType::Planar;
     MaterialId material = 0;
-    int fog = 0; ///< 0 none, else index in World::fogs
+    int fog = 0;       ///< 0 none, else index in World::fogs
     bool drawn = true; ///< false: flare, or SURF_NODRAW patch
     uint32_t firstVertex = 0, vertexCount = 0;
     uint32_t firstIndex = 0, indexCount = 0; ///< in World::indices, absolute vertex numbers; patches at full resolution
-    Plane plane;  ///< planar faces
+    Plane plane;                             ///< planar faces
     Bounds bounds;
     int patch = -1; ///< index in World::patches
     vec3 flareOrigin{0}, flareColor{0}, flareNormal{0};
     int bspShader = 0;
+    int bspModel = 0; ///< the submodel that owns it; 0 the world
 };
 
 struct FogVolume {
     Bounds bounds;
     MaterialId material = 0;
-    vec3 color{0};           ///< [0, 1]
+    vec3 color{0};            ///< [0, 1]
     float depthForOpaque = 1; ///< qu, at least 1
     bool hasSurface = false;
     Plane surface; ///< depth below it at p: distance - dot(normal, p)
@@ -85,11 +86,18 @@ struct World {
     std::vector<PatchGrid> patches;
     std::vector<FogVolume> fogs; ///< [0] unused: fog numbers start at 1
     LightGrid grid;
-    Bounds bounds; ///< of all drawn vertices
+    Bounds bounds; ///< of all drawn vertices (the models lump is too small on oa_dm3)
     int entityTokenOffset = 0;
+    /// Drawn surfaces that share a material, surface numbers ascending: a look at each material finds all its surfaces.
+    struct MaterialGroup {
+        MaterialId material = 0;
+        std::vector<uint32_t> surfaces;
+    };
+    std::vector<MaterialGroup> materialGroups; ///< by ascending material
 
     int leafOf(const vec3& point) const;
     int clusterOf(const vec3& point) const { return bsp.leafs[static_cast<size_t>(leafOf(point))].cluster; }
+    /// The engine's R_inPVS, with its answers for points in solid. Not symmetric; ignores areas.
     bool inPvs(const vec3& from, const vec3& to) const;
     /// First fog whose box overlaps the box strictly; 0 none.
     int fogOf(const Bounds& box) const;

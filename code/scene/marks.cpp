@@ -1,0 +1,180 @@
+// MarkFragments: decals clipped against the world (spec of world 8.2). Limits, ranges and tolerances are those that the
+// game code's marks were made for.
+
+#include <algorithm>
+#include <cstddef>
+
+#include "scene/world.hpp"
+#include "scene/world_math.hpp"
+
+namespace q3rt {
+namespace {
+
+constexpr size_t kMaxSurfaces = 64;              // examined per mark
+constexpr size_t kMaxPolygonPoints = 64;         // of the mark; more are ignored
+constexpr float kSearchBackQu = 20.0f;           // the search box reaches this far against the projection
+constexpr float kNearQu = 32.0f, kFarQu = 20.0f; // depth range about the first point
+constexpr float kOnPlaneQu = 0.5f;               // nearer than this to a clip plane counts as on it
+constexpr float kPlanarFacing = -0.5f;           // largest dot(normal, projection) that takes a mark
+constexpr float kPatchFacingFirst = -0.1f, kPatchFacingSecond = -0.05f;
+
+enum BoxSide { kFront = 1, kBack = 2, kBoth = 3 };
+
+BoxSide classifyBox(const Bounds& box, const Plane& plane) {
+    for (int i = 0; i < 3; ++i) {
+        if (plane.normal[i] != 1.0f) continue;
+        if (plane.distance <= box.mins[i]) return kFront;
+        return plane.distance >= box.maxs[i] ? kBack : kBoth;
+    }
+    vec3 farCorner, nearCorner;
+    for (int i = 0; i < 3; ++i) {
+        const bool negative = plane.normal[i] < 0.0f;
+        farCorner[i] = negative ? box.mins[i] : box.maxs[i];
+        nearCorner[i] = negative ? box.maxs[i] : box.mins[i];
+    }
+    int side = 0;
+    if (glm::dot(plane.normal, farCorner) >= plane.distance) side |= kFront;
+    if (glm::dot(plane.normal, nearCorner) < plane.distance) side |= kBack;
+    return static_cast<BoxSide>(side);
+}
+
+/// The convex volume of a mark: what is inside is in front of every plane.
+struct MarkVolume {
+    Bounds box;
+    vec3 direction{0}; ///< of projection, unit
+    std::vector<Plane> planes;
+};
+
+MarkVolume makeVolume(const std::vector<vec3>& polygon, const vec3& projection) {
+    MarkVolume volume;
+    const size_t count = std::min(polygon.size(), kMaxPolygonPoints);
+    volume.direction = normalizeOrZero(projection);
+    for (size_t i = 0; i < count; ++i) {
+        volume.box.add(polygon[i]);
+        volume.box.add(polygon[i] + projection);
+        volume.box.add(polygon[i] - volume.direction * kSearchBackQu);
+        const vec3 edge = polygon[(i + 1) % count] - polygon[i];
+        const vec3 normal = fastNormalize(glm::cross(edge, -projection));
+        volume.planes.push_back({normal, glm::dot(normal, polygon[i])});
+    }
+    const float depth = glm::dot(volume.direction, polygon[0]);
+    volume.planes.push_back({volume.direction, depth - kNearQu});
+    volume.planes.push_back({-volume.direction, -depth - kFarQu});
+    return volume;
+}
+
+bool takesMarks(const MaterialLibrary& materials, const MarkVolume& volume, const WorldSurface& surface) {
+    if (!surface.drawn) return false;
+    const Material& material = materials.get(surface.material);
+    if (material.surfaceFlags & (surfaceParm::kNoImpact | surfaceParm::kNoMarks)) return false;
+    if (material.contentFlags & surfaceParm::kContentsFog) return false;
+    if (surface.type != BspSurfaceType::Planar) return surface.type != BspSurfaceType::Flare;
+    return classifyBox(volume.box, surface.plane) == kBoth &&
+           glm::dot(surface.plane.normal, volume.direction) <= kPlanarFacing;
+}
+
+/// Surfaces of all leafs that the box touches, in leaf order, each once.
+std::vector<int> findSurfaces(const World& world, const MaterialLibrary& materials, const MarkVolume& volume) {
+    std::vector<int> found;
+    std::vector<int> open{world.bsp.nodes.empty() ? -1 : 0};
+    while (!open.empty()) {
+        const int child = open.back();
+        open.pop_back();
+        if (child >= 0) {
+            const BspNode& node = world.bsp.nodes[static_cast<size_t>(child)];
+            const BoxSide side = classifyBox(volume.box, world.bsp.planes[static_cast<size_t>(node.plane)]);
+            if (side & kBack) open.push_back(node.children[1]);
+            if (side & kFront) open.push_back(node.children[0]);
+            continue;
+        }
+        const BspLeaf& leaf = world.bsp.leafs[static_cast<size_t>(-1 - child)];
+        for (int i = 0; i < leaf.leafSurfaceCount && found.size() < kMaxSurfaces; ++i) {
+            const int number = world.bsp.leafSurfaces[static_cast<size_t>(leaf.firstLeafSurface + i)];
+            if (!takesMarks(materials, volume, world.surfaces[static_cast<size_t>(number)])) continue;
+            if (std::find(found.begin(), found.end(), number) == found.end()) found.push_back(number);
+        }
+    }
+    return found;
+}
+
+/// Keeps what lies in front of the plane. A polygon that is nowhere clearly in front vanishes.
+void clipPolygon(std::vector<vec3>& polygon, const Plane& plane, std::vector<vec3>& scratch) {
+    enum Side { front, back, on };
+    const auto distanceOf = [&](const vec3& p) { return glm::dot(p, plane.normal) - plane.distance; };
+    const auto sideOf = [](float d) { return d > kOnPlaneQu ? front : d < -kOnPlaneQu ? back : on; };
+    bool anyFront = false, anyBack = false;
+    for (const vec3& point : polygon) {
+        const Side side = sideOf(distanceOf(point));
+        anyFront = anyFront || side == front;
+        anyBack = anyBack || side == back;
+    }
+    if (!anyFront) polygon.clear();
+    if (!anyFront || !anyBack) return;
+    scratch.clear();
+    for (size_t i = 0; i < polygon.size(); ++i) {
+        const vec3& a = polygon[i];
+        const vec3& b = polygon[(i + 1) % polygon.size()];
+        const float da = distanceOf(a), db = distanceOf(b);
+        const Side sideA = sideOf(da), sideB = sideOf(db);
+        if (sideA != back) scratch.push_back(a);
+        if (sideA == on || sideB == on || sideA == sideB) continue;
+        scratch.push_back(a + (b - a) * (da / (da - db))); // opposite sides: da - db is at least 2 kOnPlaneQu
+    }
+    polygon.swap(scratch);
+}
+
+/// The caller's buffers and their limits.
+struct MarkOutput {
+    size_t maxPoints, maxFragments;
+    std::vector<vec3>& points;
+    std::vector<MarkFragment>& fragments;
+    size_t firstPoint, firstFragment;
+    std::vector<vec3> polygon, scratch; // reused from triangle to triangle
+
+    bool full() const { return fragments.size() - firstFragment >= maxFragments; }
+
+    void addTriangle(const MarkVolume& volume, const vec3* corners) {
+        polygon.assign(corners, corners + 3);
+        for (const Plane& plane : volume.planes) {
+            clipPolygon(polygon, plane, scratch);
+            if (polygon.empty()) return;
+        }
+        if (points.size() - firstPoint + polygon.size() > maxPoints) return; // this fragment alone is left out
+        fragments.push_back({static_cast<int>(points.size() - firstPoint), static_cast<int>(polygon.size())});
+        points.insert(points.end(), polygon.begin(), polygon.end());
+    }
+};
+
+void markSurface(const World& world, const MarkVolume& volume, const WorldSurface& surface, MarkOutput& out) {
+    for (uint32_t i = 0; i + 2 < surface.indexCount && !out.full(); i += 3) {
+        vec3 corners[3];
+        for (uint32_t k = 0; k < 3; ++k) {
+            corners[k] = world.vertices[world.indices[surface.firstIndex + i + k]].position;
+        }
+        if (surface.type == BspSurfaceType::Patch) {
+            const vec3 normal = fastNormalize(clockwiseCross(corners[0], corners[1], corners[2]));
+            const float limit = i % 6 == 0 ? kPatchFacingFirst : kPatchFacingSecond;
+            if (glm::dot(normal, volume.direction) >= limit) continue;
+        }
+        out.addTriangle(volume, corners);
+    }
+}
+
+} // namespace
+
+int markFragments(const World& world, const MaterialLibrary& materials, const std::vector<vec3>& polygon,
+                  const vec3& projection, size_t maxPoints, std::vector<vec3>& points, size_t maxFragments,
+                  std::vector<MarkFragment>& fragments, bool onTriangleSoups) {
+    if (polygon.empty()) return 0;
+    const MarkVolume volume = makeVolume(polygon, projection);
+    MarkOutput out{maxPoints, maxFragments, points, fragments, points.size(), fragments.size(), {}, {}};
+    for (const int number : findSurfaces(world, materials, volume)) {
+        const WorldSurface& surface = world.surfaces[static_cast<size_t>(number)];
+        if (surface.type == BspSurfaceType::TriangleSoup && !onTriangleSoups) continue;
+        if (out.full()) break;
+        markSurface(world, volume, surface, out);
+    }
+    return static_cast<int>(fragments.size() - out.firstFragment);
+}
+
+} // namespace q3rt
