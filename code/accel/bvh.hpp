@@ -52,12 +52,8 @@ uint32_t depthOf(const Bvh& bvh);
 /// Boxes of triangles; positions 3 a triangle.
 std::vector<Bounds> triangleBounds(std::span<const vec3> positions);
 
-/// Triangles in leaf order as the shaders read them. `geometry` and `primitive` a triangle: what a hit reports.
-struct TriangleSource {
-    std::span<const vec3> positions;     ///< 3 a triangle
-    std::span<const uint32_t> geometry;  ///< a triangle: geometry number | kBvhOpaqueBit; empty: 0 and opaque
-    std::span<const uint32_t> primitive; ///< a triangle: its number in the geometry; empty: its index
-};
-std::vector<BvhTriangle> leafTriangles(const Bvh& bvh, const TriangleSource& source);
+/// Triangles in leaf order as the shaders read them. `opaque` has one entry a triangle; empty: all are.
+std::vector<BvhTriangle> leafTriangles(const Bvh& bvh, std::span<const vec3> positions,
+                                       std::span<const uint8_t> opaque = {});
 
 } // namespace q3rt

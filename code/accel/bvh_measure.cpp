@@ -79,17 +79,13 @@ std::vector<Bounds> triangleBounds(std::span<const vec3> positions) {
     return boxes;
 }
 
-std::vector<BvhTriangle> leafTriangles(const Bvh& bvh, const TriangleSource& source) {
+std::vector<BvhTriangle> leafTriangles(const Bvh& bvh, std::span<const vec3> positions,
+                                       std::span<const uint8_t> opaque) {
     std::vector<BvhTriangle> triangles;
     triangles.reserve(bvh.order.size());
-    for (const uint32_t index : bvh.order) {
-        BvhTriangle triangle{};
-        triangle.corner0 = source.positions[3 * size_t{index}];
-        triangle.corner1 = source.positions[3 * size_t{index} + 1];
-        triangle.corner2 = source.positions[3 * size_t{index} + 2];
-        triangle.geometry = source.geometry.empty() ? kBvhOpaqueBit : source.geometry[index];
-        triangle.primitive = source.primitive.empty() ? index : source.primitive[index];
-        triangles.push_back(triangle);
+    for (const uint32_t number : bvh.order) {
+        const vec3* corner = &positions[3 * size_t{number}];
+        triangles.push_back({corner[0], number, corner[1], opaque.empty() ? 1u : opaque[number], corner[2], 0});
     }
     return triangles;
 }

@@ -2,6 +2,11 @@
 #ifndef Q3RT_SHARED_BVH_H
 #define Q3RT_SHARED_BVH_H
 #include "types.h"
+#ifdef __cplusplus
+#define BVH_TABLE uint64_t
+#else
+#define BVH_TABLE uvec2
+#endif
 SHARED_BEGIN
 
 // Set in BvhNode::left/right: the child is a leaf, the low bits its first item.
@@ -25,21 +30,23 @@ struct BvhNode {
 // Vertices are stored in leaf order and not shared: one cache line and a half a triangle, no index fetch.
 struct BvhTriangle {
     vec3 corner0;
-    uint primitive; // triangle number in its geometry
+    uint number; // triangle number in its structure
     vec3 corner1;
-    uint geometry; // geometry number in its structure | kBvhOpaqueBit
+    uint opaque; // 1: a hit counts without asking anybody
     vec3 corner2;
     uint reserved;
 };
-SHARED_CONST kBvhOpaqueBit = 0x80000000u; // no accept function is called for it
 
+// A tree placed in the scene. Tables are device addresses (test code: pointers), so that trees built at load and trees
+// built for this frame can live in different buffers.
 struct BvhInstance {
     vec4 modelFromWorld[3]; // rows of the affine transform
-    uint root;              // node index of the model's tree
-    uint firstTriangle;     // added to the leaf items of that tree
-    uint customIndex;       // the scene's own number, 24 bits
-    uint mask;              // visible to a ray when mask & rayMask != 0
-    uint reserved[4];
+    BVH_TABLE nodes;        // BvhNode[], [0] the root
+    BVH_TABLE triangles;    // BvhTriangle[] in leaf order
+    uint customIndex;       // what a hit reports
+    uint mask;              // met by a ray when mask & rayMask != 0
+    uint reserved0;
+    uint reserved1;
 };
 
 SHARED_END

@@ -1,24 +1,14 @@
 // Two-level traversal of our own tree: stack, near child first. Loops, no recursion; bounded by the depth that builders
 // guarantee. Pure but for what the includer defines:
-//   BvhNode loadBvhNode(uint index)            BvhTriangle loadBvhTriangle(uint index)
-//   BvhInstance loadBvhInstance(uint index)    uint loadBvhInstanceIndex(uint item)  (leaf item -> instance)
-//   bool acceptHit(uint customIndex, uint geometry, uint primitive, vec2 barycentric, float t)
-//                                              called for non-opaque geometry only; false: the ray goes on
+//   struct BvhQuery                             what the search carries along
+//   BvhNode loadBvhNode(BVH_TABLE table, uint index)        BvhTriangle loadBvhTriangle(BVH_TABLE table, uint index)
+//   BvhInstance loadBvhInstance(uint item)      the instance at a leaf item of the scene tree
+//   bool onBvhTriangle(INOUT(BvhQuery) query, BvhInstance instance, BvhTriangle triangle, TriangleHit test)
+//                                               a triangle that the ray meets; true: it counts, nothing behind it does
 #ifndef Q3RT_TRACE_BVH_TRAVERSE_GLSL
 #define Q3RT_TRACE_BVH_TRAVERSE_GLSL
 #include "lib/intersect.glsl"
 #include "shared/bvh.h"
-
-struct BvhHit {
-    float t;          // tMax of the ray if nothing was hit
-    uint instance;    // 0xffffffff: no hit
-    uint customIndex;
-    uint geometry;
-    uint primitive;
-    vec2 barycentric; // weights of corner 1 and 2
-    bool frontFace;
-};
-const uint kBvhNoInstance = 0xffffffffu;
 
 // One level's ray with what its slab tests need.
 struct BvhRay {
@@ -43,58 +33,46 @@ BvhRay toModelSpace(BvhInstance instance, vec3 origin, vec3 direction)
                            dot(instance.modelFromWorld[2], d)));
 }
 
-// Tests the triangles of a leaf; returns true when the search may stop (any hit is enough).
-bool intersectLeaf(BvhRay ray, BvhInstance instance, uint instanceIndex, uint first, uint count, float tMin,
-                   bool anyHit, INOUT(BvhHit) hit)
+// Tests the triangles of a leaf, shortening tMax at each one that counts; true when one did.
+bool visitLeaf(BvhRay ray, BvhInstance instance, uint first, uint count, float tMin, INOUT(float) tMax,
+               INOUT(BvhQuery) query)
 {
+    bool counted = false;
     for (uint i = 0u; i < count; ++i) {
-        BvhTriangle triangle = loadBvhTriangle(instance.firstTriangle + first + i);
+        BvhTriangle triangle = loadBvhTriangle(instance.triangles, first + i);
         TriangleHit test = intersectTriangle(ray.origin, ray.direction, triangle.corner0, triangle.corner1,
-                                             triangle.corner2, tMin, hit.t);
-        if (!test.hit)
-            continue;
-        uint geometry = triangle.geometry & ~kBvhOpaqueBit;
-        bool opaque = (triangle.geometry & kBvhOpaqueBit) != 0u;
-        if (!opaque && !acceptHit(instance.customIndex, geometry, triangle.primitive, test.barycentric, test.t))
-            continue;
-        hit = BvhHit(test.t, instanceIndex, instance.customIndex, geometry, triangle.primitive, test.barycentric,
-                     test.frontFace);
-        if (anyHit)
-            return true;
+                                             triangle.corner2, tMin, tMax);
+        if (test.hit && onBvhTriangle(query, instance, triangle, test)) {
+            tMax = test.t;
+            counted = true;
+        }
     }
-    return false;
+    return counted;
 }
 
-// Closest accepted hit in (tMin, tMax), or any of them. `sceneRoot` is the root of the tree over instances.
-BvhHit traverseBvh(uint sceneRoot, vec3 origin, vec3 direction, float tMin, float tMax, uint mask, bool anyHit)
+// Visits the triangles that the ray meets in (tMin, tMax), nearest boxes first; returns the t of the last one that
+// counted, or tMax. With anyHit the first one ends the search.
+float traverseBvh(BVH_TABLE sceneNodes, vec3 origin, vec3 direction, float tMin, float tMax, uint mask, bool anyHit,
+                  INOUT(BvhQuery) query)
 {
-    BvhHit hit;
-    hit.t = tMax;
-    hit.instance = kBvhNoInstance;
-    hit.customIndex = 0u;
-    hit.geometry = 0u;
-    hit.primitive = 0u;
-    hit.barycentric = vec2(0.0);
-    hit.frontFace = false;
-
-    // Entries: a node, or a leaf (kBvhLeafBit) with its count beside it. Below `modelBase` they belong to the scene.
+    // Entries: a node, or a leaf (kBvhLeafBit) with its count beside it. Those below `modelBase` belong to the scene.
     uint stackChild[2u * kBvhMaxDepth];
     uint stackCount[2u * kBvhMaxDepth];
     uint top = 0u;
     const uint kNoModel = 0xffffffffu;
     uint modelBase = kNoModel;
-    uint currentIndex = 0u;
-    BvhInstance current;
+    BvhInstance instance;
     BvhRay world = makeBvhRay(origin, direction);
     BvhRay ray = world;
-    uint child = sceneRoot;
+    BVH_TABLE nodes = sceneNodes;
+    uint child = 0u;
     uint count = 0u;
     for (;;) {
         if ((child & kBvhLeafBit) == 0u) {
-            BvhNode node = loadBvhNode(child);
-            float left = intersectBox(ray.origin, ray.reciprocal, node.leftMins, node.leftMaxs, tMin, hit.t);
-            float right = intersectBox(ray.origin, ray.reciprocal, node.rightMins, node.rightMaxs, tMin, hit.t);
-            bool leftHit = left <= hit.t, rightHit = right <= hit.t;
+            BvhNode node = loadBvhNode(nodes, child);
+            float left = intersectBox(ray.origin, ray.reciprocal, node.leftMins, node.leftMaxs, tMin, tMax);
+            float right = intersectBox(ray.origin, ray.reciprocal, node.rightMins, node.rightMaxs, tMin, tMax);
+            bool leftHit = left <= tMax, rightHit = right <= tMax;
             if (leftHit || rightHit) {
                 bool leftFirst = leftHit && (!rightHit || left <= right);
                 child = leftFirst ? node.left : node.right;
@@ -107,8 +85,8 @@ BvhHit traverseBvh(uint sceneRoot, vec3 origin, vec3 direction, float tMin, floa
                 continue;
             }
         } else if (modelBase != kNoModel) {
-            if (intersectLeaf(ray, current, currentIndex, child & ~kBvhLeafBit, count, tMin, anyHit, hit))
-                return hit;
+            if (visitLeaf(ray, instance, child & ~kBvhLeafBit, count, tMin, tMax, query) && anyHit)
+                return tMax;
         } else if (count > 0u) {
             // One instance of a scene leaf at a time; the rest of the leaf waits on the stack.
             uint first = child & ~kBvhLeafBit;
@@ -117,14 +95,12 @@ BvhHit traverseBvh(uint sceneRoot, vec3 origin, vec3 direction, float tMin, floa
                 stackCount[top] = count - 1u;
                 ++top;
             }
-            uint index = loadBvhInstanceIndex(first);
-            BvhInstance instance = loadBvhInstance(index);
+            instance = loadBvhInstance(first);
             if ((instance.mask & mask) != 0u) {
-                current = instance;
-                currentIndex = index;
                 modelBase = top;
-                ray = toModelSpace(current, origin, direction);
-                child = current.root;
+                ray = toModelSpace(instance, origin, direction);
+                nodes = instance.nodes;
+                child = 0u;
                 count = 0u;
                 continue;
             }
@@ -132,14 +108,15 @@ BvhHit traverseBvh(uint sceneRoot, vec3 origin, vec3 direction, float tMin, floa
         if (top == modelBase) {
             modelBase = kNoModel;
             ray = world;
+            nodes = sceneNodes;
         }
         if (top == 0u)
-            return hit;
+            return tMax;
         --top;
         child = stackChild[top];
         count = stackCount[top];
     }
-    return hit;
+    return tMax;
 }
 
 #endif

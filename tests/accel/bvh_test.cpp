@@ -64,7 +64,7 @@ std::vector<vec3> closedBox(int n, const vec3& centre, float halfSize) {
 
 TestScene singleModelScene(const Bvh& bvh, const std::vector<vec3>& positions) {
     TestScene scene;
-    scene.instances.push_back(scene.addModel(bvh, {positions, {}, {}}));
+    scene.instances.push_back(scene.addModel(bvh, positions));
     scene.buildScene({bvh.bounds});
     return scene;
 }
@@ -233,10 +233,10 @@ TEST(Traversal, ClosedMeshDoesNotLeakAtAnyDistance) {
 
 TEST(Traversal, InstancesMasksAcceptAndAnyHit) {
     const std::vector<vec3> triangle{{10, -1, -1}, {10, 1, -1}, {10, 0, 1}};
-    const std::vector<uint32_t> transparent{0};
+    const std::vector<uint8_t> transparent{0};
     const Bvh bvh = buildSah(triangleBounds(triangle));
     TestScene scene;
-    BvhInstance near = scene.addModel(bvh, {triangle, transparent, {}});
+    BvhInstance near = scene.addModel(bvh, triangle, transparent);
     BvhInstance far = near;
     far.modelFromWorld[0].w = -5; // world x = model x + 5
     near.customIndex = 1;
@@ -261,7 +261,7 @@ TEST(Traversal, FiveThousandInstancesAndEmptyScenes) {
     const Bvh bvh = buildSah(triangleBounds(triangle));
     TestScene scene;
     std::vector<Bounds> bounds;
-    const BvhInstance model = scene.addModel(bvh, {triangle, {}, {}});
+    const BvhInstance model = scene.addModel(bvh, triangle);
     for (int i = 0; i < 5000; ++i) {
         BvhInstance instance = model;
         instance.customIndex = static_cast<uint32_t>(i);

@@ -1,7 +1,9 @@
 #pragma once
 // The traversal shader itself, compiled as C++: what the tests check is the text that the device runs.
 
+#include <deque>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "accel/bvh.hpp"
@@ -10,23 +12,26 @@ namespace q3rt {
 
 /// Trees and instances as the device has them.
 struct TestScene {
-    std::vector<BvhNode> nodes;
-    std::vector<BvhTriangle> triangles;
+    struct Model {
+        std::vector<BvhNode> nodes;
+        std::vector<BvhTriangle> triangles;
+    };
+    std::deque<Model> models; ///< addresses stay: instances point into them
     std::vector<BvhInstance> instances;
-    std::vector<uint32_t> instanceOrder; ///< leaf item of the scene tree -> instance
-    uint32_t root = 0;
-    std::function<bool(uint32_t geometry, uint32_t primitive)> accept;
+    std::vector<BvhNode> sceneNodes;
+    std::vector<uint32_t> sceneOrder;                                    ///< leaf item of the scene tree -> instance
+    std::function<bool(uint32_t customIndex, uint32_t triangle)> accept; ///< asked for triangles that are not opaque
 
-    /// Appends a model's tree; returns an instance of it without a transform.
-    BvhInstance addModel(const Bvh& bvh, const TriangleSource& source);
-    /// Builds the scene tree over the instances (their model bounds given in the same order).
+    /// Returns an instance of the tree without a transform.
+    BvhInstance addModel(const Bvh& bvh, std::span<const vec3> positions, std::span<const uint8_t> opaque = {});
+    /// Builds the scene tree over the instances (their world bounds in the same order).
     void buildScene(const std::vector<Bounds>& worldBounds);
 };
 
 struct TestHit {
     bool hit = false;
     float t = 0;
-    uint32_t customIndex = 0, geometry = 0, primitive = 0;
+    uint32_t customIndex = 0, triangle = 0;
     vec2 barycentric{0};
     bool frontFace = false;
 };
