@@ -1,0 +1,61 @@
+#pragma once
+// What one frame sends to the GPU, gathered on the CPU. No Vulkan here.
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/material.hpp"
+#include "scene/stage_table.hpp"
+#include "shaders/shared/raster.h"
+#include "shaders/shared/stage.h"
+#include "shaders/shared/vertex.h"
+
+namespace q3rt {
+
+/// Which vertex buffer a batch indexes.
+enum class VertexSource : uint8_t { World, Dynamic };
+
+/// Stages made by the renderer itself (sky box, cinematics) are numbered from here; see FrameDrawData::ownStages.
+inline constexpr uint32_t kOwnStageBit = 0x80000000u;
+
+/// Depth range of a batch in the window (spec of world 3.7).
+enum class DepthRange : uint8_t { Normal, Weapon, Far, Near };
+
+/// Triangles of one material, entity and fog, drawn stage by stage.
+struct DrawBatch {
+    MaterialId material = 0; ///< the one that is drawn (remapped)
+    StageRange stages;       ///< first may have kOwnStageBit
+    bool ownStages = false;  ///< draw with the state of a sky box or cinematic, not of the material's stages
+    bool blendOwn = false;   ///< own stages only: alpha blend, no depth
+    VertexSource source = VertexSource::World;
+    DepthRange depthRange = DepthRange::Normal;
+    uint32_t entity = 0; ///< in FrameDrawData::entities
+    uint32_t firstIndex = 0, indexCount = 0;
+    uint32_t firstLight = 0, lightCount = 0; ///< in FrameDrawData::lights, and the additive flags beside them
+    int fog = -1;                            ///< in FrameDrawData::fogs, -1 none
+};
+
+/// One view (or the portal view before it) as batches.
+struct ViewDraw {
+    int x = 0, y = 0, width = 0, height = 0; ///< pixels, top-left origin
+    bool mirrored = false, clipped = false;
+    bool clearDepth = true;
+    bool clearColor = false;
+    float clearGrey = 0; ///< [0, 1]
+    uint32_t firstBatch = 0, batchCount = 0;
+};
+
+struct FrameDrawData {
+    std::vector<Vertex> vertices; ///< VertexSource::Dynamic
+    std::vector<uint32_t> indices;
+    std::vector<RasterEntity> entities;
+    std::vector<RasterLight> lights;
+    std::vector<uint8_t> lightAdditive; ///< parallel to lights
+    std::vector<RasterFog> fogs;
+    std::vector<StageState> ownStages;
+    std::vector<DrawBatch> batches;
+    std::vector<ViewDraw> views;
+    void clear();
+};
+
+} // namespace q3rt

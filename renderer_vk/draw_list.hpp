@@ -1,0 +1,74 @@
+#pragma once
+// From a scene to batches in the original's order: visible world surfaces, polys and entities, sorted by shader rank,
+// entity, fog and light (spec of world section 3), portals first. Pure CPU.
+
+#include <memory>
+
+#include "renderer_vk/draw_data.hpp"
+#include "renderer_vk/portal.hpp"
+#include "renderer_vk/raster_settings.hpp"
+#include "renderer_vk/sky.hpp"
+#include "renderer_vk/surface_lights.hpp"
+#include "renderer_vk/visibility.hpp"
+#include "scene/entity_geometry.hpp"
+
+namespace q3rt {
+
+/// The part of the front end's settings that a list needs.
+struct DrawListSettings {
+    RasterSettings raster;
+    ViewGeometrySettings geometry;
+    bool fastSky = false, drawWorld = true;
+    bool dynamicLights = true;
+};
+
+/// 64-bit key, ascending: shader rank, entity, fog, lit. The world and polys come after all entities.
+uint64_t makeSortKey(uint32_t rank, int sceneIndex, int fog, bool lit);
+
+class DrawListBuilder {
+  public:
+    DrawListBuilder(const MaterialLibrary& materials, const ModelLibrary& models, StageTable& stages, const World* world);
+    /// Appends the views of one RenderScene: the portal's first, then its own.
+    void addScene(const FrameCommands& frame, const SceneView& scene, const DrawListSettings& settings, FrameDrawData& out);
+    /// Surfaces that the last scene drew, for tests and r_speeds.
+    size_t surfaceCount() const { return m_surfaceCount; }
+
+  private:
+    struct Item {
+        uint64_t key;
+        uint32_t surface;    ///< world surface, or index in ViewGeometry::surfaces
+        uint32_t entity;     ///< in ViewGeometry::entities
+        MaterialId material; ///< as registered, not remapped
+        int fog;
+        bool fromWorld;      ///< world vertices
+        uint32_t firstLight, lightCount; ///< in m_lightRefs
+    };
+    struct ViewWork; // of one view, in draw_list.cpp
+
+    void buildView(ViewWork& work);
+    void addWorld(ViewWork& work);
+    void addWorldSurface(ViewWork& work, uint32_t surface, uint32_t entity, uint32_t firstLight, uint32_t lightCount);
+    void addEntities(ViewWork& work);
+    void addBrushModel(ViewWork& work, uint32_t entity);
+    bool surfaceCulled(const ViewWork& work, const WorldSurface& surface, const EntityRecord& entity, bool isWorld) const;
+    bool addPortalView(ViewWork& work);
+    void makeBatches(ViewWork& work);
+    void appendBatch(ViewWork& work, size_t firstItem, size_t lastItem);
+    void appendSky(ViewWork& work, const Material& material, MaterialId id, size_t firstItem, size_t lastItem);
+    void appendItemIndices(ViewWork& work, const Item& item);
+    uint32_t entityIndex(ViewWork& work, uint32_t entity);
+    int fogIndex(ViewWork& work, int fog);
+    void appendLights(ViewWork& work, DrawBatch& batch, size_t firstItem, size_t lastItem);
+    MaterialId drawnId(MaterialId id) const;
+
+    const MaterialLibrary& m_materials;
+    const ModelLibrary& m_models;
+    StageTable& m_stages;
+    const World* m_world;
+    std::unique_ptr<WorldVisibility> m_visibility;
+    std::vector<uint32_t> m_handled; ///< stamp by world surface: once a view, also by brush models
+    uint32_t m_stamp = 0;
+    size_t m_surfaceCount = 0;
+};
+
+} // namespace q3rt

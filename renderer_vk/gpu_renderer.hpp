@@ -1,0 +1,68 @@
+#pragma once
+// A renderer with a device: everything that the rasteriser and the ray tracer share. A derived class draws world views;
+// 2D, HUD scenes, textures, window and capture are done here.
+
+#include <memory>
+
+#include "engine/front_end.hpp"
+#include "renderer_vk/gpu_context.hpp"
+#include "renderer_vk/raster_scene.hpp"
+
+namespace q3rt {
+
+class GpuRenderer : public FrontEnd {
+  public:
+    explicit GpuRenderer(EngineServices& engine);
+    ~GpuRenderer() override;
+
+  protected:
+    // --- what a derived renderer supplies ---
+    /// Adds the passes of one world view (never RDF_NOWORLDMODEL). Read frame buffers through `targets`, replace its handles
+    /// by what you wrote. Stages evaluated now through stageTable() are on the GPU when the passes record.
+    virtual void drawWorldView(FrameGraph& graph, FrameTargets& targets, const FrameCommands& frame,
+                               const SceneView& scene) = 0;
+    /// "raster", "pipeline", "query", "compute": goes into q3rt_stats and the renderer string.
+    virtual const char* backendName() const = 0;
+    virtual const char* rendererName() const = 0;
+    /// The device exists (once); make what does not depend on content.
+    virtual void onDeviceCreated() {}
+    /// A map is loaded; its materials and textures are known, and resident.
+    virtual void onGpuWorldLoaded() {}
+    /// EndRegistration: create and warm all pipelines.
+    virtual void onGpuReady() {}
+    /// Content goes: drop what refers to it. The GPU is idle. Legal at any moment.
+    virtual void onGpuContentDropped() {}
+    /// Start of a frame, before any view: the command buffer is open, textures are up to date.
+    virtual void onGpuFrameBegin(const FrameCommands&) {}
+    /// The frame was submitted.
+    virtual void onGpuFrameEnd() {}
+    /// More members of q3rt_stats, as JSON text beginning with a comma, or empty.
+    virtual std::string extraStats() const { return {}; }
+
+    GpuContext& context() { return *m_context; }
+    RasterScene& raster() { return *m_raster; }
+    StageTable& stageTable() { return *m_stages; }
+    const RasterSettings& rasterSettings() const { return m_rasterSettings; }
+    DrawListSettings drawListSettings() const;
+    /// True once the first registration has opened the device.
+    bool hasDevice() const { return m_context != nullptr; }
+
+  private:
+    DisplayInfo openDisplay() final;
+    void onContentCreated() final;
+    void onWorldLoaded() final;
+    void onEndRegistration() final;
+    void onFrame(const FrameCommands& frame, FrameImage* capture) final;
+    void onContentDropped() final;
+    void drawFrame(const FrameCommands& frame, FrameImage* capture);
+    void followTextures(bool flush);
+    void publishStats();
+
+    RasterSettings m_rasterSettings;
+    std::unique_ptr<GpuContext> m_context;
+    std::unique_ptr<RasterScene> m_raster;
+    std::unique_ptr<StageTable> m_stages;
+    bool m_minimizeCommand = false;
+};
+
+} // namespace q3rt

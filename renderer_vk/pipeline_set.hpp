@@ -1,0 +1,47 @@
+#pragma once
+// All raster pipelines, by the state they differ in. Cull side, winding and depth bias are set while recording.
+
+#include <map>
+#include <span>
+
+#include "gpu/graphics_pipeline.hpp"
+#include "scene/material.hpp"
+
+namespace q3rt {
+
+struct StateKey {
+    bool blended = false;
+    BlendFactor source = BlendFactor::One, destination = BlendFactor::Zero;
+    DepthFunc depthFunc = DepthFunc::LessEqual;
+    bool depthWrite = true;
+    AlphaTest alphaTest = AlphaTest::None;
+    Combine combine = Combine::Single;
+    uint8_t pass = 0;     ///< kPass*
+    bool clipped = false; ///< portal views
+    auto operator<=>(const StateKey&) const = default;
+};
+
+StateKey stageKey(const Stage& stage, bool clipped);
+StateKey lightKey(bool additive, bool clipped);
+StateKey fogKey(bool depthEqual, bool clipped);
+/// Alpha-blended picture without depth: cinematics.
+StateKey overlayKey();
+/// Opaque, no depth write: sky boxes.
+StateKey skyBoxKey(bool clipped);
+
+class PipelineSet {
+  public:
+    PipelineSet(Device& device, VkDescriptorSetLayout frameLayout, VkDescriptorSetLayout textureLayout);
+    const GraphicsPipeline& find(const StateKey& key);
+    /// Every state that drawing these materials needs; `clipped` also those for portal views.
+    static std::vector<StateKey> statesOf(const MaterialLibrary& materials, bool clipped);
+    bool known(const StateKey& key) const { return m_pipelines.contains(key); }
+    size_t size() const { return m_pipelines.size(); }
+
+  private:
+    Device& m_device;
+    VkDescriptorSetLayout m_frameLayout, m_textureLayout;
+    std::map<StateKey, GraphicsPipeline> m_pipelines;
+};
+
+} // namespace q3rt

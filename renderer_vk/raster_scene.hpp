@@ -1,0 +1,81 @@
+#pragma once
+// The rasteriser as a piece that any renderer can use: it adds passes that draw views and 2D onto a target image.
+//
+// Order in a frame: beginFrame(); addView() and addUi() any number of times, in drawing order, into one FrameGraph;
+// uploadFrame(); run the graph.
+
+#include <memory>
+#include <span>
+
+#include "frame/frame_executor.hpp"
+#include "gpu/growing_buffer.hpp"
+#include "renderer_vk/draw_list.hpp"
+#include "renderer_vk/gpu_context.hpp"
+#include "renderer_vk/pipeline_set.hpp"
+
+namespace q3rt {
+
+/// The targets of a frame as the graph's current handles; passes replace them by what they wrote.
+struct FrameTargets {
+    ImageId color;
+    ImageId depth;
+};
+
+class RasterScene {
+  public:
+    explicit RasterScene(GpuContext& context);
+    ~RasterScene();
+    RasterScene(const RasterScene&) = delete;
+    RasterScene& operator=(const RasterScene&) = delete;
+
+    /// New libraries: everything of the old ones is forgotten. `world` may be null, and may be set later.
+    void setContent(const MaterialLibrary& materials, const ModelLibrary& models, StageTable& stages);
+    void setWorld(const World* world);
+    void dropContent();
+    /// Creates and warms the pipelines of all materials known now.
+    void warmPipelines();
+
+    void beginFrame();
+    /// A pass named `pass` that draws the scene (portals first) by rasterising.
+    void addView(FrameGraph& graph, FrameTargets& targets, const FrameCommands& frame, const SceneView& scene,
+                 const DrawListSettings& settings, const char* pass);
+    /// A pass "ui" that draws a run of pictures and cinematics.
+    void addUi(FrameGraph& graph, FrameTargets& targets, std::span<const FrameCommand> run, int clockMs);
+    /// Sends what was gathered to the GPU. Call after the last add, before the graph runs.
+    void uploadFrame();
+
+    /// StageTable of the frame on the GPU (StageState[]); valid after uploadFrame().
+    BufferSlice stageSlice() const { return m_stageSlice; }
+    /// Static world vertices (Vertex[]) for other users of them.
+    const Buffer& worldVertices() const { return m_worldVertices; }
+
+  private:
+    void recordViews(PassContext& pass, FrameTargets targets, uint32_t firstView, uint32_t viewCount);
+    void recordView(PassContext& pass, const ViewDraw& view);
+    void recordBatch(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch);
+    void draw(VkCommandBuffer commands, const StateKey& key, const RasterDraw& constants, const DrawBatch& batch,
+              bool polygonOffset, CullMode cull, const ViewDraw& view);
+    void bindFrame(PassContext& pass);
+    void addUiPicture(const Picture& picture, uint32_t entity, int clockMs, DrawBatch*& open);
+    void addUiCinematic(const CinematicPicture& picture, uint32_t entity);
+    uint32_t addUiEntity();
+    void recordPass(FrameGraph& graph, FrameTargets& targets, const char* name, uint32_t firstView, uint32_t viewCount);
+
+    GpuContext& m_context;
+    const MaterialLibrary* m_materials = nullptr;
+    const ModelLibrary* m_models = nullptr;
+    StageTable* m_stages = nullptr;
+    std::unique_ptr<DrawListBuilder> m_builder;
+    PipelineSet m_pipelines;
+    FrameDrawData m_data;
+    Buffer m_worldVertices;
+    GrowingBuffer m_vertexStream, m_indexStream, m_storageStream;
+    BufferSlice m_vertexSlice, m_indexSlice, m_stageSlice, m_entitySlice, m_lightSlice, m_fogSlice;
+    VkDescriptorSet m_frameSet = VK_NULL_HANDLE;
+    uint32_t m_tableStageCount = 0;
+    float m_offsetFactor = -1, m_offsetUnits = -2;
+    struct BoundState;
+    std::unique_ptr<BoundState> m_bound;
+};
+
+} // namespace q3rt

@@ -1,0 +1,65 @@
+#include "renderer_vk/surface_lights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace q3rt {
+
+bool lightTouchesSurface(const WorldSurface& surface, const SceneLight& light) {
+    switch (surface.type) {
+    case BspSurfaceType::Planar:
+        return std::abs(glm::dot(light.origin, surface.plane.normal) - surface.plane.distance) <= light.radius;
+    case BspSurfaceType::Patch:
+        return glm::all(glm::greaterThanEqual(light.origin + light.radius, surface.bounds.mins)) &&
+               glm::all(glm::lessThanEqual(light.origin - light.radius, surface.bounds.maxs));
+    case BspSurfaceType::TriangleSoup:
+        return true;
+    case BspSurfaceType::Flare:
+        break;
+    }
+    return false;
+}
+
+namespace {
+
+/// Marks the leafs that a light's sphere reaches.
+void markLeafs(const World& world, const SceneLight& light, int node, std::vector<uint8_t>& reached) {
+    while (node >= 0) {
+        const BspNode& n = world.bsp.nodes[static_cast<size_t>(node)];
+        const Plane& plane = world.bsp.planes[static_cast<size_t>(n.plane)];
+        const float distance = glm::dot(plane.normal, light.origin) - plane.distance;
+        const bool front = distance > -light.radius, back = distance < light.radius;
+        if (front && back) markLeafs(world, light, n.children[0], reached);
+        node = front && !back ? n.children[0] : n.children[1];
+    }
+    reached[static_cast<size_t>(-1 - node)] = 1;
+}
+
+} // namespace
+
+void findWorldLights(const World& world, const VisibleWorld& visible, std::span<const SceneLight> lights,
+                     std::vector<SurfaceLight>& out) {
+    out.clear();
+    std::vector<uint8_t> reached;
+    for (size_t l = 0; l < lights.size(); ++l) {
+        reached.assign(world.bsp.leafs.size(), 0);
+        markLeafs(world, lights[l], world.bsp.nodes.empty() ? -1 : 0, reached);
+        for (size_t i = 0; i < visible.surfaces.size(); ++i) {
+            if (!reached[static_cast<size_t>(visible.surfaceLeaf[i])]) continue;
+            if (lightTouchesSurface(world.surfaces[visible.surfaces[i]], lights[l]))
+                out.emplace_back(static_cast<uint32_t>(i), static_cast<uint32_t>(l));
+        }
+    }
+    std::ranges::sort(out);
+}
+
+bool brushModelLit(const BspModel& model, const EntityRecord& entity, std::span<const SceneLight> lights) {
+    const mat4 modelFromWorld = glm::inverse(entity.worldFromModel);
+    return std::ranges::any_of(lights, [&](const SceneLight& light) {
+        const vec3 origin(modelFromWorld * vec4(light.origin, 1.0f));
+        return glm::all(glm::greaterThanEqual(origin + light.radius, model.mins)) &&
+               glm::all(glm::lessThanEqual(origin - light.radius, model.maxs));
+    });
+}
+
+} // namespace q3rt

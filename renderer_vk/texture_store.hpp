@@ -1,0 +1,48 @@
+#pragma once
+// The texture library on the GPU: index of the bindless array = TextureId.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gpu/bindless_textures.hpp"
+#include "gpu/gpu_image.hpp"
+#include "gpu/uploader.hpp"
+#include "scene/texture.hpp"
+
+namespace q3rt {
+
+/// How mip-mapped textures are filtered.
+struct TextureFilter {
+    std::string mode = "GL_LINEAR_MIPMAP_LINEAR"; ///< r_textureMode
+    float anisotropy = 1;
+    bool operator==(const TextureFilter&) const = default;
+};
+
+class TextureStore {
+  public:
+    explicit TextureStore(Device& device);
+    /// Forgets all textures (a new library follows).
+    void reset();
+    /// Uploads textures that are new or whose version rose, into `uploader` (the caller flushes or records it).
+    void follow(const TextureLibrary& library, const TextureFilter& filter, Uploader& uploader);
+    VkDescriptorSetLayout layout() const { return m_bindless->layout(); }
+    VkDescriptorSet set() const { return m_bindless->set(); } ///< ask while recording
+    size_t count() const { return m_entries.size(); }
+
+  private:
+    struct Entry {
+        std::unique_ptr<GpuImage> image; // uploads keep its address
+        uint32_t version = 0;
+    };
+    VkSampler samplerOf(const Texture& texture) const;
+    void create(const Texture& texture, Entry& entry, Uploader& uploader);
+
+    Device& m_device;
+    TextureFilter m_filter;
+    GpuImage m_fallback;
+    std::unique_ptr<BindlessTextures> m_bindless;
+    std::vector<Entry> m_entries;
+};
+
+} // namespace q3rt
