@@ -2,7 +2,7 @@
 // guarantee. Pure but for what the includer defines:
 //   struct BvhQuery                             what the search carries along
 //   BvhNode loadBvhNode(BVH_TABLE table, uint index)        BvhTriangle loadBvhTriangle(BVH_TABLE table, uint index)
-//   BvhInstance loadBvhInstance(uint item)      the instance at a leaf item of the scene tree
+//   BvhInstance loadBvhInstance(INOUT(BvhQuery) query, uint item)   the instance at a leaf item of the scene tree
 //   bool onBvhTriangle(INOUT(BvhQuery) query, BvhInstance instance, BvhTriangle triangle, TriangleHit test)
 //                                               a triangle that the ray meets; true: it counts, nothing behind it does
 #ifndef Q3RT_TRACE_BVH_TRAVERSE_GLSL
@@ -95,7 +95,7 @@ float traverseBvh(BVH_TABLE sceneNodes, vec3 origin, vec3 direction, float tMin,
                 stackCount[top] = count - 1u;
                 ++top;
             }
-            instance = loadBvhInstance(first);
+            instance = loadBvhInstance(query, first);
             if ((instance.mask & mask) != 0u) {
                 modelBase = top;
                 ray = toModelSpace(instance, origin, direction);

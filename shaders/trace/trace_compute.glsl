@@ -12,9 +12,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Bvh
 
 BvhNode loadBvhNode(uvec2 table, uint index) { return BvhNodeTable(table).at[index]; }
 BvhTriangle loadBvhTriangle(uvec2 table, uint index) { return BvhTriangleTable(table).at[index]; }
-// Instances are stored in the leaf order of the scene tree.
-BvhInstance loadBvhInstance(uint item) { return BvhInstanceTable(frame.treeInstances).at[item]; }
-
 const uint kSearchHit = 0u;    // `hit` is the last triangle that counted
 const uint kSearchLayers = 1u; // nothing counts, everything is collected
 
@@ -25,6 +22,9 @@ struct BvhQuery {
     Hit hit;
     LayerBatch batch;
 };
+
+// Instances are stored in the leaf order of the scene tree.
+BvhInstance loadBvhInstance(inout BvhQuery query, uint item) { return BvhInstanceTable(frame.treeInstances).at[item]; }
 
 bool onBvhTriangle(inout BvhQuery query, BvhInstance instance, BvhTriangle triangle, TriangleHit test)
 {

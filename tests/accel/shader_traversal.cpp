@@ -16,11 +16,11 @@ struct BvhQuery {
     TestHit hit;
 };
 
-const TestScene* currentScene = nullptr;
-
 BvhNode loadBvhNode(BVH_TABLE table, uint index) { return reinterpret_cast<const BvhNode*>(table)[index]; }
 BvhTriangle loadBvhTriangle(BVH_TABLE table, uint index) { return reinterpret_cast<const BvhTriangle*>(table)[index]; }
-BvhInstance loadBvhInstance(uint item) { return currentScene->instances[currentScene->sceneOrder[item]]; }
+BvhInstance loadBvhInstance(BvhQuery& query, uint item) {
+    return query.scene->instances[query.scene->sceneOrder[item]];
+}
 
 bool onBvhTriangle(BvhQuery& query, const BvhInstance& instance, const BvhTriangle& triangle, const TriangleHit& test) {
     if (triangle.opaque == 0 && query.scene->accept && !query.scene->accept(instance.customIndex, triangle.number))
@@ -53,7 +53,6 @@ void TestScene::buildScene(const std::vector<Bounds>& worldBounds) {
 
 TestHit traceShader(const TestScene& scene, const vec3& origin, const vec3& direction, float tMin, float tMax,
                     uint32_t mask, bool anyHit) {
-    currentScene = &scene;
     BvhQuery query{&scene, {}};
     traverseBvh(reinterpret_cast<uint64_t>(scene.sceneNodes.data()), origin, direction, tMin, tMax, mask, anyHit,
                 query);
