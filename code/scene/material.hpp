@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -149,6 +150,9 @@ struct Material {
     MaterialId remappedTo = 0; ///< 0: not remapped
     double timeOffsetSeconds = 0;
     uint32_t sortRank = 0;     ///< position in draw order; kept current by the library
+    /// First of the copies that differ in sortRank only (a page asked for, no lightmap stage): shares its stages.
+    MaterialId sharedStages = 0;
+    bool usesTime = false, usesEntity = false; ///< what its evaluated stages depend on
 };
 
 struct MaterialSettings {
@@ -182,6 +186,8 @@ class MaterialLibrary {
     float lastCloudHeight = 512; ///< of the last sky parsed: applies to all
     VideoStarter startVideo;
     const MaterialSettings& settings() const { return m_settings; }
+    /// As drawn(), but the id.
+    MaterialId drawnId(MaterialId id) const;
 
   private:
     FileSource& m_files;
@@ -192,7 +198,10 @@ class MaterialLibrary {
     std::vector<std::unique_ptr<Material>> m_materials;
     std::unordered_map<std::string, std::vector<MaterialId>> m_byName; ///< lower case, without extension
     std::vector<MaterialId> m_sorted;
-    MaterialId add(Material material);
+    std::unordered_map<std::string, MaterialId> m_unusedPage; ///< first entry asked with a page that it never uses
+    MaterialId add(Material material, const std::string& key);
+    Material create(std::string_view name, const std::string& key, int lightmap, bool mipRaw);
+    MaterialId findAny(std::string_view name);
 };
 
 } // namespace q3rt

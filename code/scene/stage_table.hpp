@@ -28,6 +28,7 @@ class StageTable {
         : m_materials(materials), m_textures(textures), m_identityLight(identityLight) {}
     /// Forgets the last frame. Keeps its memory.
     void beginFrame();
+    /// Follows remapping (one level): pass the surface's own material. Materials that share stages share ranges.
     StageRange evaluate(MaterialId material, const StageInputs& inputs);
     const std::vector<StageState>& states() const { return m_states; }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "base/file_source.hpp"
@@ -41,7 +42,7 @@ struct Texture {
 struct TextureSettings {
     int picmip = 0;
     bool roundImagesDown = true, simpleMipMaps = true, colorMipLevels = false;
-    int overbrightBits = 0;    ///< effective: 0 in a window
+    int overbrightBits = 0; ///< effective: 0 in a window
     int mapOverbrightBits = 2;
     float gamma = 1.0f, intensity = 1.0f;
     bool softwareGamma = true; ///< gamma is baked into mip-mapped textures (no hardware gamma)
@@ -77,7 +78,9 @@ class TextureLibrary {
     std::vector<std::unique_ptr<Texture>> m_textures; // ids are indexes; addresses stay
     std::unordered_map<std::string, TextureId> m_byName;
     std::unordered_map<std::string, std::optional<vec3>> m_averages;
+    std::unordered_set<std::string> m_missing; ///< names that no file answered
     TextureId add(Texture texture);
+    TextureId addBuiltin(std::string name, MipLevel pixels, TextureFlags flags);
 };
 
 /// Overbright shift of baked light: c << shift, scaled back by the largest channel above 255 (hue kept).
