@@ -121,7 +121,8 @@ class DefinitionParser {
         }
     }
 
-    /// A definition that draws nothing is an error unless it is a sky or a fog.
+    /// A definition that draws nothing fails unless it is a sky or a fog. No warning: tool shaders (caulk, clip and so
+    /// on) are written like that on purpose.
     void checkStages() {
         if (!m_definition.stages.empty()) return;
         for (const ScriptLine& line : m_definition.lines) {
@@ -130,7 +131,8 @@ class DefinitionParser {
                 equalsIgnoringCase(line.arguments[0], "fog"))
                 return;
         }
-        fail(m_definition.line, "no stage, and neither a sky nor a fog");
+        m_definition.failed = true;
+        m_definition.failure = "no stage, and neither a sky nor a fog";
     }
 
     /// Reads one argument. False (after a warning) if the line has no more.
