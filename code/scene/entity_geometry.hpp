@@ -27,13 +27,16 @@ struct EntityRecord {
 /// A run of triangles of one material.
 struct EntitySurface {
     MaterialId material = 0;
-    uint32_t entity = 0;  ///< in ViewGeometry::entities
+    uint32_t entity = 0; ///< in ViewGeometry::entities
     int fog = 0;
     uint32_t firstVertex = 0, vertexCount = 0;
     uint32_t firstIndex = 0, indexCount = 0; ///< in ViewGeometry::indices, absolute vertex numbers
-    bool isPoly = false;          ///< sorts as the world
-    int worldSurface = -1;        ///< the deformed world surface it replaces, -1 none
+    bool isPoly = false;                     ///< sorts as the world
+    int worldSurface = -1;                ///< the deformed world surface it replaces (draw this, not that one), -1 none
     const ModelSurface* source = nullptr; ///< model surface it came from, for caching
+    int frame = 0, oldFrame = 0;          ///< of `source`, valid frame numbers
+    float backLerp = 0;                   ///< weight of oldFrame; 0 when the frames are equal
+    bool deformed = false;                ///< vertices are not those of `source` at these frames: don't cache
 };
 
 struct ViewGeometry {
@@ -41,7 +44,12 @@ struct ViewGeometry {
     std::vector<EntitySurface> surfaces;
     std::vector<Vertex> vertices; ///< model space of their entity (world space for entity 0, sprites, rails, polys)
     std::vector<uint32_t> indices;
-    void clear();
+    void clear(); ///< keeps the memory
+
+    // Work space of the builder, kept from frame to frame so that a steady frame allocates nothing.
+    std::vector<Vertex> batchVertices;
+    std::vector<uint32_t> batchIndices;
+    std::vector<uint32_t> recordOfInlineModel; ///< by BSP submodel; 0 not in the view
 };
 
 struct ViewGeometrySettings {
@@ -53,9 +61,16 @@ struct ViewGeometrySettings {
     bool drawEntities = true;
     bool isPortalView = false, mirrored = false;
     bool deformWorld = true; ///< append deformed copies of world surfaces whose material has deforms
+    /// Keep first-person and third-person entities alike (EntityRecord::flags tells them apart): for a tracer whose
+    /// camera rays and mirror rays see different ones by instance mask.
+    bool keepHiddenEntities = false;
+    /// Unlit, white image times vertex colour: drawn for entities without a usable model (axes) and for beams. 0:
+    /// default.
+    MaterialId solidMaterial = 0;
 };
 
-/// `world` may be null (menus). `frame` holds the lists that `view` has ranges in; `eye` is the view's own, or a portal's.
+/// `world` may be null (menus). `frame` holds the lists that `view` has ranges in; `eye` is the view's own, or a
+/// portal's.
 void buildViewGeometry(const FrameCommands& frame, const SceneView& view, const Orientation& eye, const World* world,
                        const ModelLibrary& models, const MaterialLibrary& materials,
                        const ViewGeometrySettings& settings, ViewGeometry& out);
