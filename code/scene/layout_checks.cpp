@@ -29,6 +29,6 @@ static_assert(offsetof(StageState, alphaGen) == 372 && offsetof(StageState, comb
 static_assert(offsetof(StageState, bakedLight) == 380 && offsetof(StageState, sourceBlend) == 384);
 static_assert(offsetof(StageState, destinationBlend) == 388 && offsetof(StageState, blended) == 392);
 static_assert(offsetof(StageState, alphaTest) == 396 && offsetof(StageState, fogFade) == 400);
-static_assert(offsetof(StageState, portalRange) == 404 && offsetof(StageState, reserved0) == 408);
+static_assert(offsetof(StageState, portalRange) == 404 && offsetof(StageState, depthEqual) == 408);
 
 } // namespace q3rt

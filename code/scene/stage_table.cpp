@@ -301,6 +301,8 @@ StageState evaluateStage(const Material& material, const Stage& stage, const Sta
     state.alphaTest = static_cast<uint>(stage.alphaTest);
     state.fogFade = static_cast<uint>(stage.fogFade);
     state.portalRange = material.portalRange;
+    state.depthEqual = stage.depthFunc == DepthFunc::Equal ? 1 : 0;
+    state.depthWrite = stage.depthWrite ? 1 : 0;
     return state;
 }
 

@@ -90,8 +90,8 @@ struct StageState {
     uint alphaTest;
     uint fogFade;
     float portalRange; // qu
-    uint reserved0;
-    uint reserved1;
+    uint depthEqual; // 1: only where an earlier stage wrote depth (depthFunc equal)
+    uint depthWrite; // 1: writes depth where its alpha test passes
 };
 
 SHARED_END
