@@ -9,26 +9,30 @@
 namespace q3rt {
 
 struct TriangleLight {
-    vec3 corner[3];  ///< world space, clockwise seen from the lit side as the surface is
-    vec3 normal{0};  ///< unit, toward the lit side
+    vec3 corner[3]; ///< world space, clockwise seen from the lit side as the surface is
+    vec3 normal{0}; ///< unit, toward the lit side
     float areaQu2 = 0;
     vec3 radiance{0}; ///< luxel units / pi, colour included
     bool twoSided = false;
     int surface = -1; ///< world surface it came from
     int bspModel = 0; ///< 0 world, else the submodel that moves it
-    int cluster = -1; ///< of its centre, nudged to the lit side
+    int cluster = -1; ///< of its centre, nudged to the lit side; -1 outside
 };
 
 struct SunLight {
-    vec3 direction{0}; ///< toward the sun, unit
+    vec3 direction{0};  ///< toward the sun, unit
     vec3 irradiance{0}; ///< luxel units at normal incidence
     float halfAngleRadians = 0;
 };
 
+/// One drawn sky surface with q3map_surfacelight, or one q3map_skylight of a drawn sky.
 struct SkyLight {
-    float radiosity = 0; ///< of sky polygons with q3map_surfacelight, luxel units
-    vec3 color{1};
+    float radiosity = 0; ///< luxel units: irradiance of a surface that sees nothing but this sky
+    vec3 color{1};       ///< largest component 1
     int surface = -1;
+    /// From q3map_skylight: only directions above the horizon shine. Half its value: n suns that share the value,
+    /// spread evenly over that hemisphere, give level ground this much.
+    bool upperHemisphere = false;
 };
 
 struct PointLight {
@@ -44,12 +48,16 @@ struct LightSet {
     std::vector<SunLight> suns; ///< of drawn skies
     std::vector<SkyLight> skies;
     std::vector<PointLight> points; ///< surviving light entities
+    size_t emissiveSurfaces = 0;    ///< that gave triangles
+    size_t zeroAreaTriangles = 0;   ///< of emissive surfaces, left out: they give no light
 };
 
 /// All lights of a map. Emissive surfaces are those drawn with q3map_surfacelight > 0 and no sky.
 LightSet extractLights(const World& world, const MaterialLibrary& materials);
 
-/// Row = cluster (last row: outside, all lights): indices of the triangle lights potentially visible from it.
+/// Row = cluster (last row: outside, all lights): indices, ascending, of the triangle lights potentially visible from
+/// it. A light is in a row if any cluster that it touches can see or be seen from the row's. Lights of movers, and
+/// lights that touch no cluster, are in all rows. Without `cull`, or without visibility data, so is every light.
 struct LightTable {
     std::vector<uint32_t> offset; ///< clusterCount + 2 entries: row r is [offset[r], offset[r + 1])
     std::vector<uint32_t> lights;

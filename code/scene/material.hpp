@@ -180,7 +180,7 @@ class MaterialLibrary {
     /// Lightmap pages of the loaded world: texture of $lightmap for index i.
     void setLightmaps(std::vector<TextureId> pages) { m_lightmaps = std::move(pages); }
     const ScriptLibrary& scripts() const { return m_scripts; }
-    TextureLibrary& textures() { return m_textures; }
+    TextureLibrary& textures() const { return m_textures; }
     /// Sun of the last parsed q3map_sun; reset by a world load. Direction to the sun, colour * intensity.
     vec3 sunDirection{0}, sunLight{0};
     float lastCloudHeight = 512; ///< of the last sky parsed: applies to all
