@@ -1,0 +1,156 @@
+#include "scene/luxels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+namespace q3rt {
+namespace {
+
+/// How far off the face map compilers put their sample, qu.
+constexpr float kSampleOffsetQu = 1.0f;
+/// Where the ratio of traced to baked light says something, luxel units.
+constexpr double kRatioThreshold = 25;
+
+float largest(const vec3& color) { return std::max({color.x, color.y, color.z}); }
+
+struct SampledTriangle {
+    int surface;
+    uint32_t firstIndex;
+    double areaSum; ///< up to and including this one
+};
+
+bool isLuxelSurface(const World& world, const MaterialLibrary& materials, int s) {
+    const WorldSurface& surface = world.surfaces[static_cast<size_t>(s)];
+    const int page = world.bsp.surfaces[static_cast<size_t>(s)].lightmap;
+    const Material& material = materials.get(surface.material);
+    return surface.drawn && page >= 0 && static_cast<size_t>(page) < world.bsp.lightmapPageCount() &&
+           surface.type != BspSurfaceType::TriangleSoup && !material.isSky && material.light.surfaceLight <= 0;
+}
+
+std::vector<SampledTriangle> luxelTriangles(const World& world, const MaterialLibrary& materials) {
+    std::vector<SampledTriangle> triangles;
+    double areaSum = 0;
+    const BspModel& model = world.bsp.models[0];
+    for (int s = model.firstSurface; s < model.firstSurface + model.surfaceCount; ++s) {
+        if (!isLuxelSurface(world, materials, s)) continue;
+        const WorldSurface& surface = world.surfaces[static_cast<size_t>(s)];
+        for (uint32_t i = surface.firstIndex; i + 2 < surface.firstIndex + surface.indexCount; i += 3) {
+            const vec3 &a = world.vertices[world.indices[i]].position,
+                       &b = world.vertices[world.indices[i + 1]].position,
+                       &c = world.vertices[world.indices[i + 2]].position;
+            areaSum += 0.5 * glm::length(glm::cross(b - a, c - a));
+            triangles.push_back({s, i, areaSum});
+        }
+    }
+    return triangles;
+}
+
+/// Bilinear look-up in a lightmap page, clamped at its border; bytes 0..255.
+vec3 luxelAt(const Bsp& bsp, int page, const vec2& st) {
+    const uint8_t* texels = &bsp.lightmaps[static_cast<size_t>(page) * 3 * kLightmapSize * kLightmapSize];
+    const auto texel = [&](int x, int y) {
+        const size_t i = 3 * static_cast<size_t>(std::clamp(y, 0, kLightmapSize - 1) * kLightmapSize +
+                                                 std::clamp(x, 0, kLightmapSize - 1));
+        return vec3(texels[i], texels[i + 1], texels[i + 2]);
+    };
+    const vec2 at = glm::clamp(st, 0.0f, 1.0f) * static_cast<float>(kLightmapSize) - 0.5f;
+    const vec2 cell = glm::floor(at), f = at - cell;
+    const int x = static_cast<int>(cell.x), y = static_cast<int>(cell.y);
+    return glm::mix(glm::mix(texel(x, y), texel(x + 1, y), f.x), glm::mix(texel(x, y + 1), texel(x + 1, y + 1), f.x),
+                    f.y);
+}
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+LuxelReport summarise(const std::vector<Luxel>& luxels, const std::vector<DirectLight>& traced) {
+    LuxelReport report;
+    report.pointCount = luxels.size();
+    if (luxels.empty()) return report;
+    const auto n = static_cast<double>(luxels.size());
+    double sumTT = 0, sumBB = 0, sumTB = 0, sumMin = 0;
+    std::vector<double> ratios;
+    for (size_t i = 0; i < luxels.size(); ++i) {
+        const double t = largest(traced[i].total()), b = largest(luxels[i].baked);
+        report.meanTraced += t / n;
+        report.meanBaked += b / n;
+        report.meanSurfaces += largest(traced[i].surfaces) / n;
+        report.meanSun += largest(traced[i].suns) / n;
+        report.meanSky += largest(traced[i].sky) / n;
+        report.meanPoints += largest(traced[i].points) / n;
+        sumTT += t * t;
+        sumBB += b * b;
+        sumTB += t * b;
+        sumMin += std::min(t, b);
+        if (t > kRatioThreshold && b > 0) ratios.push_back(t / b);
+    }
+    const double covariance = sumTB / n - report.meanTraced * report.meanBaked;
+    const double varianceT = sumTT / n - report.meanTraced * report.meanTraced;
+    const double varianceB = sumBB / n - report.meanBaked * report.meanBaked;
+    if (varianceT > 0 && varianceB > 0) {
+        report.correlation = covariance / std::sqrt(varianceT * varianceB);
+        report.slope = covariance / varianceB;
+    }
+    if (report.meanBaked > 0) report.explainedShare = sumMin / (n * report.meanBaked);
+    report.medianRatio = median(std::move(ratios));
+    return report;
+}
+
+} // namespace
+
+std::vector<Luxel> sampleLuxels(const World& world, const MaterialLibrary& materials, size_t count, uint32_t seed) {
+    std::vector<Luxel> luxels;
+    const std::vector<SampledTriangle> triangles = luxelTriangles(world, materials);
+    if (triangles.empty()) return luxels;
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> area(0, triangles.back().areaSum);
+    std::uniform_real_distribution<float> unit(0, 1);
+    // Saturated luxels are drawn and left out, so the number that comes back may be smaller.
+    for (size_t i = 0; i < count; ++i) {
+        const auto it = std::lower_bound(triangles.begin(), triangles.end(), area(random),
+                                         [](const SampledTriangle& t, double a) { return t.areaSum < a; });
+        const float root = std::sqrt(unit(random)), v = unit(random);
+        const float weight[3] = {1 - root, root * (1 - v), root * v};
+        Luxel luxel;
+        vec2 st(0);
+        for (uint32_t corner = 0; corner < 3; ++corner) {
+            const Vertex& vertex = world.vertices[world.indices[it->firstIndex + corner]];
+            luxel.position += weight[corner] * vertex.position;
+            luxel.normal += weight[corner] * vertex.normal;
+            st += weight[corner] * vertex.lightmapSt;
+        }
+        const float length = glm::length(luxel.normal);
+        luxel.surface = it->surface;
+        luxel.baked = luxelAt(world.bsp, world.bsp.surfaces[static_cast<size_t>(it->surface)].lightmap, st);
+        if (length <= 0 || largest(luxel.baked) >= 255) continue;
+        luxel.normal /= length;
+        luxels.push_back(luxel);
+    }
+    return luxels;
+}
+
+LuxelReport checkLuxels(const World& world, const MaterialLibrary& materials, const LightSet& lights, size_t count,
+                        uint32_t seed, unsigned threadCount) {
+    const std::vector<Luxel> luxels = sampleLuxels(world, materials, count, seed);
+    const DirectLightTracer tracer(world, materials, lights);
+    std::vector<DirectLight> traced(luxels.size());
+    std::vector<std::thread> threads;
+    for (unsigned t = 0; t < std::max(1u, threadCount); ++t)
+        threads.emplace_back([&, t] {
+            for (size_t i = t; i < luxels.size(); i += std::max(1u, threadCount)) {
+                std::mt19937 random(seed + 1 + static_cast<uint32_t>(i)); // a point's draws don't depend on threads
+                traced[i] =
+                    tracer.at(luxels[i].position + kSampleOffsetQu * luxels[i].normal, luxels[i].normal, {}, random);
+            }
+        });
+    for (std::thread& thread : threads)
+        thread.join();
+    return summarise(luxels, traced);
+}
+
+} // namespace q3rt

@@ -1,0 +1,35 @@
+#pragma once
+// The check that the baked light makes possible: at random points of lightmapped faces, direct light from the extracted
+// lights beside the map's own luxel. Says how much of a map's light survives in its data.
+
+#include <string>
+#include <vector>
+
+#include "scene/direct_light.hpp"
+
+namespace q3rt {
+
+struct Luxel {
+    vec3 position{0}, normal{0};
+    vec3 baked{0}; ///< lightmap bytes 0..255, bilinear, no overbright shift
+    int surface = -1;
+};
+
+/// Points uniform by area over lightmapped faces of the world; sky, hidden and emissive faces and saturated luxels left
+/// out. The same seed gives the same points.
+std::vector<Luxel> sampleLuxels(const World& world, const MaterialLibrary& materials, size_t count, uint32_t seed);
+
+/// All in luxel units of the largest channel.
+struct LuxelReport {
+    size_t pointCount = 0;
+    double meanTraced = 0, meanSurfaces = 0, meanSun = 0, meanSky = 0, meanPoints = 0, meanBaked = 0;
+    double correlation = 0;    ///< Pearson, traced against baked; 0 where either is constant
+    double slope = 0;          ///< least squares, traced as a function of baked
+    double explainedShare = 0; ///< sum of min(traced, baked) / sum of baked
+    double medianRatio = 0;    ///< traced / baked where traced > 25
+};
+
+LuxelReport checkLuxels(const World& world, const MaterialLibrary& materials, const LightSet& lights, size_t count,
+                        uint32_t seed, unsigned threadCount);
+
+} // namespace q3rt
