@@ -5,7 +5,7 @@
 # One list that has the same names on Debian 12 and 13. The first three lines build; then what runs; then the game.
 readonly kPackages="git build-essential cmake ninja-build pkg-config ca-certificates
   libvulkan-dev libvulkan-volk-dev glslang-tools spirv-tools libsdl2-dev libjpeg-dev libstb-dev libglm-dev libminizip-dev
-  zlib1g-dev libzstd-dev nlohmann-json3-dev libcli11-dev libembree-dev libgtest-dev
+  zlib1g-dev libzstd-dev nlohmann-json3-dev libcli11-dev libembree-dev libgtest-dev libbenchmark-dev
   vulkan-validationlayers vulkan-tools xvfb xauth debian-archive-keyring
   ioquake3 openarena openarena-data openarena-088-data openarena-oacmp1"
 
