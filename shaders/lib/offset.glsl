@@ -50,4 +50,11 @@ vec3 offsetOrigin(vec3 position, vec3 error, vec3 normal)
     return moved + sign(normal) * (abs(moved) * (2.0f * kUnitRoundoff));
 }
 
+// How far apart along a unit direction two hits of one point may come out, at distance t from an origin of this size,
+// where the surface meets the ray under this cosine.
+float sameDistanceStep(float t, float originSize, float cosine)
+{
+    return (t + originSize) * kSameDistanceError / max(cosine, kGrazingCosine);
+}
+
 #endif

@@ -6,14 +6,14 @@
 void compositePixel(uvec2 pixelPosition)
 {
     uint index = pixelIndex(pixelPosition);
-    RtPixel pixel = PixelTable(frame.pixels).at[index];
-    vec3 radiance = pixel.albedo * ColorTable(frame.irradiance).at[index].rgb + pixel.emission;
-    if (frame.sample > 0u) {
+    RtPixel pixel = PixelTable(rtFrame.pixels).at[index];
+    vec3 radiance = pixel.albedo * ColorTable(rtFrame.irradiance).at[index].rgb + pixel.emission;
+    if (rtFrame.sampleNumber > 0u) {
         // Running mean: m += (x - m) / n keeps its relative error below n u.
-        vec3 mean = ColorTable(frame.radiance).at[index].rgb;
-        radiance = mean + (radiance - mean) / float(frame.sample + 1u);
+        vec3 mean = ColorTable(rtFrame.radiance).at[index].rgb;
+        radiance = mean + (radiance - mean) / float(rtFrame.sampleNumber + 1u);
     }
-    ColorTable(frame.radiance).at[index] = vec4(radiance, 1.0);
+    ColorTable(rtFrame.radiance).at[index] = vec4(radiance, 1.0);
 }
 
 #endif

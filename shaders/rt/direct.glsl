@@ -18,12 +18,12 @@ vec3 sumAllLights(ShadingPoint point, RtLightRow row, uvec4 key)
 {
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < row.count; ++i) {
-        uint light = NumberTable(frame.lightIndices).at[row.first + i];
+        uint light = NumberTable(rtFrame.lightIndices).at[row.first + i];
         LightSample lit = sampleTriangle(light, point, randomNumbers(key, kDimensionLight + light).xy);
         sum += shadowed(point, lit.irradiance, lit.direction);
     }
-    for (uint i = 0u; i < frame.lightCount; ++i) {
-        vec2 random = randomNumbers(key, kDimensionLight + frame.triangleLightCount + i).xy;
+    for (uint i = 0u; i < rtFrame.lightCount; ++i) {
+        vec2 random = randomNumbers(key, kDimensionLight + rtFrame.triangleLightCount + i).xy;
         LightSample lit = sampleOther(i, point, random, row.seesSky != 0u);
         sum += shadowed(point, lit.irradiance, lit.direction);
     }
@@ -34,21 +34,21 @@ vec3 sumAllLights(ShadingPoint point, RtLightRow row, uvec4 key)
 LightChoice chooseLight(ShadingPoint point, RtLightRow row, uvec4 key, uint choiceNumber)
 {
     LightChoice choice = emptyChoice();
-    uint candidates = min(row.count, frame.candidatesPerChoice);
-    uint dimension = kDimensionLight + choiceNumber * (frame.triangleLightCount + frame.lightCount);
+    uint candidates = min(row.count, rtFrame.candidatesPerChoice);
+    uint dimension = kDimensionLight + choiceNumber * (rtFrame.triangleLightCount + rtFrame.lightCount);
     float share = candidates > 0u ? float(row.count) / float(candidates) : 0.0;
     for (uint i = 0u; i < candidates; ++i) {
         vec4 random = randomNumbers(key, dimension + i);
         uint first = uint(float(i) * share);
         uint end = i + 1u == candidates ? row.count : uint(float(i + 1u) * share);
         uint inShare = min(uint(random.w * float(end - first)), end - first - 1u);
-        uint light = NumberTable(frame.lightIndices).at[row.first + first + inShare];
+        uint light = NumberTable(rtFrame.lightIndices).at[row.first + first + inShare];
         LightSample lit = sampleTriangle(light, point, random.xy);
         lit.irradiance *= float(end - first);
         choice = considerLight(choice, lit, random.z);
     }
-    for (uint i = 0u; i < frame.lightCount; ++i) {
-        vec4 random = randomNumbers(key, dimension + frame.triangleLightCount + i);
+    for (uint i = 0u; i < rtFrame.lightCount; ++i) {
+        vec4 random = randomNumbers(key, dimension + rtFrame.triangleLightCount + i);
         choice = considerLight(choice, sampleOther(i, point, random.xy, row.seesSky != 0u), random.z);
     }
     return choice;
@@ -57,28 +57,28 @@ LightChoice chooseLight(ShadingPoint point, RtLightRow row, uvec4 key, uint choi
 void directPixel(uvec2 pixelPosition)
 {
     uint index = pixelIndex(pixelPosition);
-    RtPixel pixel = PixelTable(frame.pixels).at[index];
+    RtPixel pixel = PixelTable(rtFrame.pixels).at[index];
     vec3 light = vec3(1.0);
-    if (pixel.lit != 0u && (frame.flags & kFrameIllumination) != 0u) {
+    if (pixel.lit != 0u && (rtFrame.flags & kFrameIllumination) != 0u) {
         ShadingPoint point;
         point.position = pixel.position;
         point.origin = offsetOrigin(pixel.position, pixel.error, pixel.geometricNormal);
         point.normal = pixel.normal;
-        RtLightRow row = LightRowTable(frame.lightRows).at[lightRowOf(point.origin)];
+        RtLightRow row = LightRowTable(rtFrame.lightRows).at[lightRowOf(point.origin)];
         uvec4 key = randomKey(pixelPosition);
         vec3 irradiance = vec3(0.0);
-        if (frame.lightsPerPixel == 0u) {
+        if (rtFrame.lightsPerPixel == 0u) {
             irradiance = sumAllLights(point, row, key);
         } else {
-            for (uint n = 0u; n < frame.lightsPerPixel; ++n) {
+            for (uint n = 0u; n < rtFrame.lightsPerPixel; ++n) {
                 LightChoice choice = chooseLight(point, row, key, n);
                 irradiance += shadowed(point, chosenIrradiance(choice), choice.direction);
             }
-            irradiance /= float(frame.lightsPerPixel);
+            irradiance /= float(rtFrame.lightsPerPixel);
         }
-        light = (irradiance + ambientIrradiance(point.origin, point.normal) * frame.ambient) / kWhiteIrradiance;
+        light = (irradiance + ambientIrradiance(point.origin, point.normal) * rtFrame.ambient) / kWhiteIrradiance;
     }
-    ColorTable(frame.irradiance).at[index] = vec4(light, 1.0);
+    ColorTable(rtFrame.irradiance).at[index] = vec4(light, 1.0);
 }
 
 #endif

@@ -17,21 +17,21 @@ const uint kDimensionChoice = 1u;
 const uint kDimensionLayer = 2u;
 const uint kDimensionLight = 16u;
 
-uvec4 randomKey(uvec2 pixel) { return uvec4(pixel, frame.frame, frame.seed); }
+uvec4 randomKey(uvec2 pixel) { return uvec4(pixel, rtFrame.frame, rtFrame.seed); }
 
 // Row of the light table for a point off every surface. A point on a plane belongs to its back, as in the map; a point
 // outside all clusters has the last row: all lights.
 uint lightRowOf(vec3 point)
 {
-    if (frame.cullLights == 0u || frame.clusterCount == 0u)
-        return frame.clusterCount;
+    if (rtFrame.cullLights == 0u || rtFrame.clusterCount == 0u)
+        return rtFrame.clusterCount;
     int node = 0;
     while (node >= 0) {
-        RtNode at = NodeTable(frame.nodes).at[node];
+        RtNode at = NodeTable(rtFrame.nodes).at[node];
         node = dot(at.plane.normal, point) - at.plane.distance > 0.0 ? at.front : at.back;
     }
     int cluster = -2 - node;
-    return cluster >= 0 && cluster < int(frame.clusterCount) ? uint(cluster) : frame.clusterCount;
+    return cluster >= 0 && cluster < int(rtFrame.clusterCount) ? uint(cluster) : rtFrame.clusterCount;
 }
 
 struct ShadingPoint {
@@ -42,7 +42,7 @@ struct ShadingPoint {
 
 LightSample sampleTriangle(uint light, ShadingPoint point, vec2 random)
 {
-    RtTriangleLight l = TriangleLightTable(frame.triangleLights).at[light];
+    RtTriangleLight l = TriangleLightTable(rtFrame.triangleLights).at[light];
     LightSample result = sampleTriangleLight(point.origin, point.normal, l.corner, l.edge1, l.edge2, l.normal, l.areaQu2,
                                              l.radiance, l.twoSided != 0u, random.x, random.y);
     // The ray ends in front of the light by the bound of the sampled point's error and of the ray's own rounding.
@@ -54,20 +54,20 @@ LightSample sampleTriangle(uint light, ShadingPoint point, vec2 random)
 
 LightSample sampleOther(uint light, ShadingPoint point, vec2 random, bool seesSky)
 {
-    RtLight l = LightTable(frame.lights).at[light];
+    RtLight l = LightTable(rtFrame.lights).at[light];
     LightSample result;
     if (l.kind == kLightSphere) {
         result = sampleSphereLight(point.origin, point.normal, l.position,
-                                   (frame.flags & kFrameSoftShadows) != 0u ? l.size : 0.0, l.power, random.x, random.y);
+                                   (rtFrame.flags & kFrameSoftShadows) != 0u ? l.size : 0.0, l.power, random.x, random.y);
         if (l.cosOuter > -1.0 && dot(normalize(result.direction), -l.axis) < l.cosOuter)
             result.irradiance = vec3(0.0);
         return result;
     }
     if (l.kind == kLightSun)
-        result = sampleSun(point.normal, l.position, (frame.flags & kFrameSoftShadows) != 0u ? l.size : 0.0, l.power,
-                           frame.farQu, random.x, random.y);
+        result = sampleSun(point.normal, l.position, (rtFrame.flags & kFrameSoftShadows) != 0u ? l.size : 0.0, l.power,
+                           rtFrame.farQu, random.x, random.y);
     else
-        result = sampleSkyDome(point.normal, l.power, frame.farQu, random.x, random.y);
+        result = sampleSkyDome(point.normal, l.power, rtFrame.farQu, random.x, random.y);
     if (!seesSky)
         result.irradiance = vec3(0.0);
     return result;

@@ -21,9 +21,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer ColorTable 
 layout(push_constant, scalar) uniform Push { RtPush push; };
 layout(set = 0, binding = 0) uniform sampler2D textures[];
 
-#define frame FrameTable(push.frame).value
+#define rtFrame FrameTable(push.frame).value
 
-uint pixelIndex(uvec2 pixel) { return pixel.y * frame.size.x + pixel.x; }
+uint pixelIndex(uvec2 pixel) { return pixel.y * rtFrame.size.x + pixel.x; }
 
 // A triangle of the scene with all that its hit needs.
 struct SceneTriangle {
@@ -35,7 +35,7 @@ struct SceneTriangle {
 
 SceneTriangle findTriangle(uint instanceIndex, uint triangle)
 {
-    RtInstance instance = InstanceTable(frame.instances).at[instanceIndex];
+    RtInstance instance = InstanceTable(rtFrame.instances).at[instanceIndex];
     NumberTable indices = NumberTable(instance.indices);
     SceneTriangle result;
     result.surface = instance.firstSurface + NumberTable(instance.surfaceOfTriangle).at[triangle];

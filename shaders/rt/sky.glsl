@@ -1,7 +1,7 @@
 // The sky in a direction: box, then cloud stages, as the engine draws them (the sky is infinitely far: no parallax).
 #ifndef Q3RT_RT_SKY_GLSL
 #define Q3RT_RT_SKY_GLSL
-#include "rt/scene.glsl"
+#include "rt/material.glsl"
 
 struct SkyFace {
     uint side; // 0..5: rt lf bk ft up dn
@@ -37,6 +37,34 @@ vec2 cloudCoordinates(vec3 d, float height)
     float p = -b + sqrt(b * b + 2.0 * radius * height + height * height);
     vec3 q = normalize(d * p + vec3(0.0, 0.0, radius));
     return vec2(acos(clamp(q.x, -1.0, 1.0)), acos(clamp(q.y, -1.0, 1.0)));
+}
+
+// Clouds cover all faces but the lowest.
+const uint kSkyFaceBelow = 5u;
+
+VertexIn cloudVertex(vec3 direction, float height)
+{
+    return VertexIn(direction, vec3(0.0), cloudCoordinates(direction, height), vec2(0.0), vec4(1.0));
+}
+
+// Unit directions of the pixel and of its neighbours.
+vec3 skyColor(RtSky sky, vec3 direction, vec3 directionX, vec3 directionY)
+{
+    SkyFace face = findSkyFace(direction);
+    vec3 color = vec3(0.0);
+    if (sky.hasBox != 0u) {
+        SkyFace faceX = findSkyFace(directionX), faceY = findSkyFace(directionY);
+        vec2 stX = faceX.side == face.side ? faceX.st - face.st : vec2(0.0);
+        vec2 stY = faceY.side == face.side ? faceY.st - face.st : vec2(0.0);
+        color = textureGrad(textures[nonuniformEXT(sky.box[face.side])], face.st, stX, stY).rgb;
+    }
+    if (sky.stageCount == 0u || face.side == kSkyFaceBelow)
+        return color;
+    EntityIn none = EntityIn(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), rtFrame.eye);
+    AffineColor clouds =
+        addStages(beginAffine(), sky.firstStage, sky.stageCount, cloudVertex(direction, sky.cloudHeightQu),
+                  cloudVertex(directionX, sky.cloudHeightQu), cloudVertex(directionY, sky.cloudHeightQu), none, 0.0);
+    return resolveAffine(clouds, vec3(1.0), color);
 }
 
 #endif

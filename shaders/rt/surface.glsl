@@ -19,6 +19,7 @@ struct SurfacePoint {
     vec4 color; // vertex colour [0, 1]
     mat2 stPerPixel; // columns: change of st from one pixel to the next in x and in y
     mat2 lightmapStPerPixel;
+    mat2x3 positionPerPixel; // model space
 };
 
 vec3 rotateToWorld(RtEntity entity, vec3 v)
@@ -50,16 +51,24 @@ vec3 pointToWorld(RtEntity entity, vec3 p)
 
 vec2 interpolate(vec2 a, vec2 b, vec2 c, vec2 weights) { return a + (b - a) * weights.x + (c - a) * weights.y; }
 
+// From the hit to where a neighbouring ray meets the triangle's plane, in weights of corners 1 and 2. A ray that passes the
+// plane (or a triangle without area) has no footprint: the finest texels are taken.
+vec2 stepOnPlane(vec3 p0, vec3 p1, vec3 p2, vec3 origin, vec3 direction, vec2 barycentric)
+{
+    vec2 step = planeBarycentric(p0, p1, p2, origin, direction) - barycentric;
+    return any(isnan(step)) || any(isinf(step)) ? vec2(0.0) : step;
+}
+
 // `directionX`, `directionY`: unit directions of the rays through the neighbouring pixels.
 SurfacePoint makeSurfacePoint(uint instanceIndex, uint triangle, vec2 barycentric, vec3 origin, vec3 direction,
                               vec3 directionX, vec3 directionY)
 {
     SceneTriangle found = findTriangle(instanceIndex, triangle);
     VertexTable vertices = VertexTable(found.vertices);
-    RtEntity entity = EntityTable(frame.entities).at[found.entity];
+    RtEntity entity = EntityTable(rtFrame.entities).at[found.entity];
     Vertex v0 = vertices.at[found.vertex.x], v1 = vertices.at[found.vertex.y], v2 = vertices.at[found.vertex.z];
     SurfacePoint point;
-    point.surface = SurfaceTable(frame.surfaces).at[found.surface];
+    point.surface = SurfaceTable(rtFrame.surfaces).at[found.surface];
     point.entity = found.entity;
     HitPoint local = makeHitPoint(v0.position, v1.position, v2.position, barycentric);
     point.modelPosition = local.position;
@@ -80,12 +89,14 @@ SurfacePoint makeSurfacePoint(uint instanceIndex, uint triangle, vec2 barycentri
     vec4 c0 = unpackUnorm4x8(v0.color), c1 = unpackUnorm4x8(v1.color), c2 = unpackUnorm4x8(v2.color);
     point.color = c0 + (c1 - c0) * barycentric.x + (c2 - c0) * barycentric.y;
 
-    vec2 stepX = planeBarycentric(p0, p1, p2, origin, directionX) - barycentric;
-    vec2 stepY = planeBarycentric(p0, p1, p2, origin, directionY) - barycentric;
+    vec2 stepX = stepOnPlane(p0, p1, p2, origin, directionX, barycentric);
+    vec2 stepY = stepOnPlane(p0, p1, p2, origin, directionY, barycentric);
     mat2 st = mat2(v1.st - v0.st, v2.st - v0.st);
     mat2 lightmapSt = mat2(v1.lightmapSt - v0.lightmapSt, v2.lightmapSt - v0.lightmapSt);
+    mat2x3 edges = mat2x3(v1.position - v0.position, v2.position - v0.position);
     point.stPerPixel = mat2(st * stepX, st * stepY);
     point.lightmapStPerPixel = mat2(lightmapSt * stepX, lightmapSt * stepY);
+    point.positionPerPixel = mat2x3(edges * stepX, edges * stepY);
     return point;
 }
 

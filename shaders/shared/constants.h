@@ -38,5 +38,8 @@ SHARED_FLOAT kTransformError = 1.7881397e-7f; // gamma(3)
 // t itself 3 roundings more on the whole path.
 SHARED_FLOAT kSameDistanceError = 1.1324895e-6f; // gamma(19)
 
+// Sines below this count as this one where an error across a surface is turned into one along the ray.
+SHARED_FLOAT kGrazingCosine = 0.015625f; // 1/64
+
 SHARED_END
 #endif

@@ -43,7 +43,7 @@ SHARED_CONST kSurfaceTested = 0x1u;   // has alpha-tested stages: the accept fun
 SHARED_CONST kSurfaceCullBack = 0x2u; // back faces don't show (the engine's front-sided)
 SHARED_CONST kSurfaceCullFront = 0x4u;
 SHARED_CONST kSurfaceSky = 0x8u;
-SHARED_CONST kSurfaceFogVolume = 0x10u; // a fog brush's face: shows nothing itself
+SHARED_CONST kSurfaceFogged = 0x10u; // the fog covers it after its stages; others fade stage by stage
 
 // A run of triangles of one material, evaluated for this frame.
 struct RtSurface {
@@ -58,9 +58,9 @@ struct RtSurface {
 struct RtEntity {
     vec4 worldFromModel[3]; // rows
     vec3 eyeInModel;        // view origin in model space
-    uint flags;
-    vec3 shaderTexture; // unused components of the engine's entity light: direction in model space
-    uint reserved;
+    vec3 ambient;           // the engine's entity light, 0..255: what traced light replaces
+    vec3 directed;
+    vec3 lightDirection; // model space
 };
 
 struct RtTriangleLight {
@@ -164,6 +164,8 @@ struct RtFrame {
     SHARED_ADDRESS grid;
     SHARED_ADDRESS skies;
     SHARED_ADDRESS fogs;
+    SHARED_ADDRESS treeNodes;     // back end `compute`: scene tree over the instances
+    SHARED_ADDRESS treeInstances; // in its leaf order
     SHARED_ADDRESS pixels;
     SHARED_ADDRESS irradiance; // vec4[]: traced L (1.0 = irradiance 63.75), one a pixel
     SHARED_ADDRESS radiance;   // vec4[]: mean radiance of all samples so far, one a pixel
@@ -172,28 +174,24 @@ struct RtFrame {
     vec3 forward;
     float farQu; // longer than any line inside the map
     vec3 left;   // scaled by the tangent of half the horizontal field of view
-    float timeSeconds;
     vec3 up; // scaled, vertical
     uint seed;
     SHARED_UVEC2 size; // pixels
-    uint sample;       // of this view: 0 starts a new mean
-    uint frame;
+    uint sampleNumber; // of this view: 0 starts a new mean
+    uint frame; // of random numbers
     uint triangleLightCount;
     uint lightCount;
     uint clusterCount;
-    uint lightsPerPixel; // rt_numRandomDL
+    uint lightsPerPixel; // rt_numRandomDL; 0: all
     uint candidatesPerChoice;
     float ambient; // rt_ambient
-    float pixelAngle; // of one pixel at the centre, radians
     uint layerOrderCount; // highest drawOrder of the frame
     vec3 gridOrigin;
-    float identityLight;
     vec3 gridCellSize;
     uint skyCount;
     ivec3 gridCounts;
     uint cullLights; // rt_cullLights
     vec3 forwardUnit;
-    uint accumulate;
 };
 
 struct RtPush {

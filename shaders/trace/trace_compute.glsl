@@ -24,7 +24,7 @@ struct BvhQuery {
 };
 
 // Instances are stored in the leaf order of the scene tree.
-BvhInstance loadBvhInstance(inout BvhQuery query, uint item) { return BvhInstanceTable(frame.treeInstances).at[item]; }
+BvhInstance loadBvhInstance(inout BvhQuery query, uint item) { return BvhInstanceTable(rtFrame.treeInstances).at[item]; }
 
 bool onBvhTriangle(inout BvhQuery query, BvhInstance instance, BvhTriangle triangle, TriangleHit test)
 {
@@ -60,14 +60,14 @@ BvhQuery beginQuery(uint kind, vec3 direction, bool cullBack)
 Hit traceClosest(vec3 origin, vec3 direction, float tMin, float tMax, uint mask, bool cullBack)
 {
     BvhQuery query = beginQuery(kSearchHit, direction, cullBack);
-    traverseBvh(frame.treeNodes, origin, direction, tMin, tMax, mask, false, query);
+    traverseBvh(rtFrame.treeNodes, origin, direction, tMin, tMax, mask, false, query);
     return query.hit;
 }
 
 bool traceVisible(vec3 origin, vec3 direction, float tMax, uint mask)
 {
     BvhQuery query = beginQuery(kSearchHit, direction, false);
-    traverseBvh(frame.treeNodes, origin, direction, 0.0, tMax, mask, true, query);
+    traverseBvh(rtFrame.treeNodes, origin, direction, 0.0, tMax, mask, true, query);
     return query.hit.t == 0.0;
 }
 
@@ -75,7 +75,7 @@ LayerBatch traceLayers(vec3 origin, vec3 direction, float tMax, uint mask, Layer
 {
     BvhQuery query = beginQuery(kSearchLayers, direction, false);
     query.batch = emptyBatch(after);
-    traverseBvh(frame.treeNodes, origin, direction, 0.0, tMax, mask, false, query);
+    traverseBvh(rtFrame.treeNodes, origin, direction, 0.0, tMax, mask, false, query);
     return query.batch;
 }
 

@@ -1,0 +1,58 @@
+// Questions that the tracer asks while a ray is under way. The same functions serve every back end.
+#ifndef Q3RT_RT_ACCEPT_GLSL
+#define Q3RT_RT_ACCEPT_GLSL
+#include "rt/material.glsl"
+
+// Geometric facts of a candidate triangle, without its attributes.
+struct Candidate {
+    SceneTriangle triangle;
+    RtSurface surface;
+    vec3 facing; // world; (c - a) x (b - a): toward the side from which it is seen clockwise
+};
+
+Candidate findCandidate(uint instance, uint triangle)
+{
+    Candidate result;
+    result.triangle = findTriangle(instance, triangle);
+    result.surface = SurfaceTable(rtFrame.surfaces).at[result.triangle.surface];
+    RtEntity entity = EntityTable(rtFrame.entities).at[result.triangle.entity];
+    VertexTable vertices = VertexTable(result.triangle.vertices);
+    vec3 a = pointToWorld(entity, vertices.at[result.triangle.vertex.x].position);
+    vec3 b = pointToWorld(entity, vertices.at[result.triangle.vertex.y].position);
+    vec3 c = pointToWorld(entity, vertices.at[result.triangle.vertex.z].position);
+    result.facing = cross(c - a, b - a);
+    return result;
+}
+
+bool showsFrom(RtSurface surface, vec3 facing, vec3 direction)
+{
+    float side = dot(facing, direction);
+    return !((surface.flags & kSurfaceCullBack) != 0u && side >= 0.0) &&
+           !((surface.flags & kSurfaceCullFront) != 0u && side <= 0.0);
+}
+
+// Rays that look (unit directions) respect the sides of a surface; shadow rays, whose direction spans the whole way to
+// the light, are stopped from both sides, as by the solid class.
+bool acceptHit(uint instance, uint triangle, vec2 barycentric, float t, vec3 direction)
+{
+    Candidate candidate = findCandidate(instance, triangle);
+    if ((candidate.surface.flags & kSurfaceTested) == 0u)
+        return true;
+    return isCovered(candidate.triangle, candidate.surface, barycentric);
+}
+
+// Where a layer stands along the ray in drawing order. Layers in one plane (marks, decals, coats of paint) come at the
+// same distance but for rounding: the later drawn one is moved toward the eye by twice the error bound of a distance
+// for each step of the drawing order, at grazing angles by more, because there an error across the plane is a longer
+// one along the ray.
+float layerDistance(uint instance, uint triangle, vec2 barycentric, float t, vec3 direction)
+{
+    Candidate candidate = findCandidate(instance, triangle);
+    float size = length(candidate.facing);
+    if (size == 0.0 || !showsFrom(candidate.surface, candidate.facing, direction))
+        return -1.0;
+    float cosine = abs(dot(candidate.facing, direction)) / size;
+    return t - sameDistanceStep(t, length(rtFrame.eye), cosine) * float(candidate.surface.drawOrder);
+}
+
+#endif
