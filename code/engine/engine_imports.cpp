@@ -153,7 +153,8 @@ void EngineImports::setCvar(std::string_view name, std::string_view value) {
 
 void EngineImports::addCommand(std::string_view name, void (*function)()) {
     const std::string command(name);
-    m_guard.call([&] { m_imports.Cmd_AddCommand(command.c_str(), m_commandEntry); });
+    const bool known = m_commands.contains(lowerCase(name));
+    if (!known) m_guard.call([&] { m_imports.Cmd_AddCommand(command.c_str(), m_commandEntry); });
     m_commands[lowerCase(name)] = function;
 }
 

@@ -26,6 +26,7 @@ struct Guard::Slot {
     void* importData = nullptr;
     ImportKind importKind = ImportKind::Normal;
     bool finished = false, abandoned = false;
+    unsigned activation = 0; ///< changes when the body that waits in an import is given up
     Severity severity = Severity::None;
     std::array<char, 2048>& errorText;
 
@@ -67,7 +68,12 @@ void Guard::pump(Slot& slot) {
         slot.fiber.resume();
         m_running = nullptr;
         if (slot.finished) return;
+        const unsigned activation = slot.activation;
         slot.import(slot.importData); // may never come back
+        if (slot.activation != activation) {
+            m_raiseError(Severity::Fatal, "the engine called the renderer from within an import that doesn't allow it");
+            return;
+        }
     }
 }
 
@@ -75,6 +81,7 @@ void Guard::abandonSuspended() {
     while (m_activeCount > 0) {
         Slot& slot = *m_slots[m_activeCount - 1];
         slot.abandoned = true;
+        ++slot.activation;
         m_running = &slot;
         slot.fiber.resume();
         m_running = nullptr;

@@ -1,0 +1,123 @@
+#include "host/headless/cvar_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "base/error.hpp"
+
+namespace q3rt {
+namespace {
+
+constexpr int kLatch = 0x20, kUserCreated = 0x80;
+
+std::string keyOf(std::string_view name) {
+    std::string key(name);
+    for (char& c : key)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return key;
+}
+
+} // namespace
+
+/// The struct that modules hold, and the strings that it points to.
+struct CvarTable::Entry {
+    cvar_t cvar{};
+    std::string name, value, reset, description;
+    std::string latched;
+    bool hasLatched = false;
+};
+
+CvarTable::CvarTable() = default;
+CvarTable::~CvarTable() = default;
+
+void CvarTable::assign(Entry& entry, std::string value) {
+    cvar_t& cvar = entry.cvar;
+    float number = std::strtof(value.c_str(), nullptr);
+    if (cvar.validate) {
+        const float limited = std::clamp(cvar.integral ? std::trunc(number) : number, cvar.min, cvar.max);
+        if (limited != number) {
+            value = cvar.integral ? std::to_string(static_cast<int>(limited)) : formatText("%g", limited);
+            number = limited;
+        }
+    }
+    const bool changed = value != entry.value || cvar.modificationCount == 0;
+    entry.value = std::move(value);
+    entry.hasLatched = false;
+    cvar.name = entry.name.data();
+    cvar.string = entry.value.data();
+    cvar.resetString = entry.reset.data();
+    cvar.latchedString = nullptr;
+    cvar.value = number;
+    cvar.integer = static_cast<int32_t>(std::strtol(entry.value.c_str(), nullptr, 10));
+    if (!changed) return;
+    cvar.modified = 1;
+    ++cvar.modificationCount;
+}
+
+cvar_t* CvarTable::get(std::string_view name, std::string_view defaultValue, int flags) {
+    std::unique_ptr<Entry>& slot = m_entries[keyOf(name)];
+    if (!slot) {
+        slot = std::make_unique<Entry>();
+        slot->name = name;
+        slot->reset = defaultValue;
+        slot->cvar.flags = flags;
+        assign(*slot, std::string(defaultValue));
+        return &slot->cvar;
+    }
+    slot->cvar.flags = (slot->cvar.flags & ~kUserCreated) | flags;
+    slot->reset = defaultValue;
+    slot->cvar.resetString = slot->reset.data();
+    if (slot->hasLatched) assign(*slot, slot->latched);
+    return &slot->cvar;
+}
+
+void CvarTable::set(std::string_view name, std::string_view value) {
+    std::unique_ptr<Entry>& slot = m_entries[keyOf(name)];
+    if (!slot) {
+        preset(name, value);
+        return;
+    }
+    if (!(slot->cvar.flags & kLatch)) return assign(*slot, std::string(value));
+    slot->latched = value;
+    slot->hasLatched = true;
+    slot->cvar.latchedString = slot->latched.data();
+    slot->cvar.modified = 1;
+}
+
+void CvarTable::preset(std::string_view name, std::string_view value) {
+    std::unique_ptr<Entry>& slot = m_entries[keyOf(name)];
+    if (!slot) {
+        slot = std::make_unique<Entry>();
+        slot->name = name;
+        slot->cvar.flags = kUserCreated;
+    }
+    assign(*slot, std::string(value));
+}
+
+void CvarTable::setRange(cvar_t* cvar, float minimum, float maximum, bool integral) {
+    Entry& entry = *m_entries.at(keyOf(cvar->name));
+    cvar->validate = 1;
+    cvar->min = minimum;
+    cvar->max = maximum;
+    cvar->integral = integral;
+    assign(entry, entry.value);
+}
+
+void CvarTable::describe(cvar_t* cvar, std::string_view text) {
+    Entry& entry = *m_entries.at(keyOf(cvar->name));
+    entry.description = text;
+    cvar->description = entry.description.data();
+}
+
+cvar_t* CvarTable::find(std::string_view name) const {
+    const auto found = m_entries.find(keyOf(name));
+    return found == m_entries.end() ? nullptr : &found->second->cvar;
+}
+
+std::string CvarTable::value(std::string_view name) const {
+    const cvar_t* cvar = find(name);
+    return cvar ? cvar->string : "";
+}
+
+} // namespace q3rt
