@@ -27,9 +27,11 @@ uint64_t makeSortKey(uint32_t rank, int sceneIndex, int fog, bool lit);
 
 class DrawListBuilder {
   public:
-    DrawListBuilder(const MaterialLibrary& materials, const ModelLibrary& models, StageTable& stages, const World* world);
+    DrawListBuilder(const MaterialLibrary& materials, const ModelLibrary& models, StageTable& stages,
+                    const World* world);
     /// Appends the views of one RenderScene: the portal's first, then its own.
-    void addScene(const FrameCommands& frame, const SceneView& scene, const DrawListSettings& settings, FrameDrawData& out);
+    void addScene(const FrameCommands& frame, const SceneView& scene, const DrawListSettings& settings,
+                  FrameDrawData& out);
     /// Surfaces that the last scene drew, for tests and r_speeds.
     size_t surfaceCount() const { return m_surfaceCount; }
 
@@ -40,7 +42,7 @@ class DrawListBuilder {
         uint32_t entity;     ///< in ViewGeometry::entities
         MaterialId material; ///< as registered, not remapped
         int fog;
-        bool fromWorld;      ///< world vertices
+        bool fromWorld;                  ///< world vertices
         uint32_t firstLight, lightCount; ///< in m_lightRefs
     };
     struct ViewWork; // of one view, in draw_list.cpp
@@ -50,7 +52,8 @@ class DrawListBuilder {
     void addWorldSurface(ViewWork& work, uint32_t surface, uint32_t entity, uint32_t firstLight, uint32_t lightCount);
     void addEntities(ViewWork& work);
     void addBrushModel(ViewWork& work, uint32_t entity);
-    bool surfaceCulled(const ViewWork& work, const WorldSurface& surface, const EntityRecord& entity, bool isWorld) const;
+    bool surfaceCulled(const ViewWork& work, const WorldSurface& surface, const EntityRecord& entity,
+                       bool isWorld) const;
     bool addPortalView(ViewWork& work);
     void makeBatches(ViewWork& work);
     void appendBatch(ViewWork& work, size_t firstItem, size_t lastItem);

@@ -17,8 +17,8 @@ class GpuRenderer : public FrontEnd {
 
   protected:
     // --- what a derived renderer supplies ---
-    /// Adds the passes of one world view (never RDF_NOWORLDMODEL). Read frame buffers through `targets`, replace its handles
-    /// by what you wrote. Stages evaluated now through stageTable() are on the GPU when the passes record.
+    /// Adds the passes of one world view (never RDF_NOWORLDMODEL). Read frame buffers through `targets`, replace its
+    /// handles by what you wrote. Stages evaluated now through stageTable() are on the GPU when the passes record.
     virtual void drawWorldView(FrameGraph& graph, FrameTargets& targets, const FrameCommands& frame,
                                const SceneView& scene) = 0;
     /// "raster", "pipeline", "query", "compute": goes into q3rt_stats and the renderer string.
@@ -62,7 +62,6 @@ class GpuRenderer : public FrontEnd {
     std::unique_ptr<GpuContext> m_context;
     std::unique_ptr<RasterScene> m_raster;
     std::unique_ptr<StageTable> m_stages;
-    bool m_minimizeCommand = false;
 };
 
 } // namespace q3rt

@@ -30,7 +30,8 @@ void appendPatchIndices(const WorldSurface& surface, const PatchGrid& grid, cons
     };
     for (size_t r = 0; r + 1 < rows.size(); ++r) {
         for (size_t c = 0; c + 1 < columns.size(); ++c) {
-            const uint32_t cell[6] = {at(r, c), at(r + 1, c), at(r, c + 1), at(r, c + 1), at(r + 1, c), at(r + 1, c + 1)};
+            const uint32_t cell[6] = {at(r, c),     at(r + 1, c), at(r, c + 1),
+                                      at(r, c + 1), at(r + 1, c), at(r + 1, c + 1)};
             out.insert(out.end(), cell, cell + 6);
         }
     }

@@ -31,7 +31,8 @@ float rollDegrees(const SceneEntity& entity, int timeMs) {
 
 vec3 toCamera(const vec3& vector, const Orientation& surface, const Orientation& camera) {
     vec3 result(0.0f);
-    for (int i = 0; i < 3; ++i) result += glm::dot(vector, surface.axis[i]) * camera.axis[i];
+    for (int i = 0; i < 3; ++i)
+        result += glm::dot(vector, surface.axis[i]) * camera.axis[i];
     return result;
 }
 
@@ -114,7 +115,8 @@ std::optional<RasterView> makePortalView(const RasterView& view, const Plane& pl
     out.mirrored = mirror;
     out.pvsOrigin = entity->oldOrigin;
     out.eye.origin = camera.origin + toCamera(view.eye.origin - surface.origin, surface, camera);
-    for (int i = 0; i < 3; ++i) out.eye.axis[i] = toCamera(view.eye.axis[i], surface, camera);
+    for (int i = 0; i < 3; ++i)
+        out.eye.axis[i] = toCamera(view.eye.axis[i], surface, camera);
     out.clip.normal = -camera.axis[0];
     out.clip.distance = glm::dot(out.clip.normal, camera.origin);
     updateFrustum(out);

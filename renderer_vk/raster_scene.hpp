@@ -51,14 +51,15 @@ class RasterScene {
 
   private:
     void recordViews(PassContext& pass, FrameTargets targets, uint32_t firstView, uint32_t viewCount);
-    void recordView(PassContext& pass, const ViewDraw& view);
+    void recordView(PassContext& pass, const ViewDraw& view, VkExtent2D extent);
     void recordBatch(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch);
     void draw(VkCommandBuffer commands, const StateKey& key, const RasterDraw& constants, const DrawBatch& batch,
               bool polygonOffset, CullMode cull, const ViewDraw& view);
     void bindFrame(PassContext& pass);
-    void addUiPicture(const Picture& picture, uint32_t entity, int clockMs, DrawBatch*& open);
-    void addUiCinematic(const CinematicPicture& picture, uint32_t entity);
     uint32_t addUiEntity();
+    void addUiPicture(const Picture& picture, uint32_t entity, int clockMs, uint32_t firstBatch);
+    void addUiCinematic(const CinematicPicture& picture, uint32_t entity);
+    void appendQuad(const Picture& quad);
     void recordPass(FrameGraph& graph, FrameTargets& targets, const char* name, uint32_t firstView, uint32_t viewCount);
 
     GpuContext& m_context;
@@ -66,6 +67,7 @@ class RasterScene {
     const ModelLibrary* m_models = nullptr;
     StageTable* m_stages = nullptr;
     std::unique_ptr<DrawListBuilder> m_builder;
+    DescriptorLayout m_frameLayout;
     PipelineSet m_pipelines;
     FrameDrawData m_data;
     Buffer m_worldVertices;

@@ -13,15 +13,15 @@ constexpr float kLeastDepth = 0.001f;
 constexpr float kWorldRadiusQu = 4096.0f; // of the sphere that clouds lie on
 
 // Planes through the eye that cut space into the six face pyramids.
-constexpr std::array<vec3, 6> kClipNormals = {vec3(1, 1, 0),  vec3(1, -1, 0), vec3(0, -1, 1),
+constexpr std::array<vec3, 6> kClipNormals = {vec3(1, 1, 0), vec3(1, -1, 0), vec3(0, -1, 1),
                                               vec3(0, 1, 1), vec3(1, 0, 1),  vec3(-1, 0, 1)};
 
 /// Which axis carries s, t and depth of each face, with signs: index 1..3 = x, y, z.
 struct FaceAxes {
     int s, t, depth;
 };
-constexpr std::array<FaceAxes, kSkyFaces> kFaceAxes = {
-    FaceAxes{-2, 3, 1}, FaceAxes{2, 3, -1}, FaceAxes{1, 3, 2}, FaceAxes{-1, 3, -2}, FaceAxes{-2, -1, 3}, FaceAxes{-2, 1, -3}};
+constexpr std::array<FaceAxes, kSkyFaces> kFaceAxes = {FaceAxes{-2, 3, 1},  FaceAxes{2, 3, -1},  FaceAxes{1, 3, 2},
+                                                       FaceAxes{-1, 3, -2}, FaceAxes{-2, -1, 3}, FaceAxes{-2, 1, -3}};
 
 float component(const vec3& v, int axis) { return axis > 0 ? v[axis - 1] : -v[-axis - 1]; }
 
@@ -75,7 +75,8 @@ void SkyCoverage::clip(std::vector<vec3> polygon, size_t plane) {
 
 void SkyCoverage::addPolygon(const std::vector<vec3>& polygon) {
     vec3 sum(0.0f);
-    for (const vec3& point : polygon) sum += point;
+    for (const vec3& point : polygon)
+        sum += point;
     const auto face = static_cast<size_t>(faceOf(sum));
     const FaceAxes& axes = kFaceAxes[face];
     for (const vec3& point : polygon) {
@@ -131,7 +132,8 @@ SkyFaceRange appendSkyFace(const SkyCoverage& coverage, int face, const vec3& ey
             const vec3 direction = skyDirection(face, fs, ft);
             Vertex vertex{};
             vertex.position = eye + direction * halfSizeQu;
-            vertex.st = clouds ? cloudCoordinates(direction, cloudHeightQu) : vec2((fs + 1) * 0.5f, 1 - (ft + 1) * 0.5f);
+            vertex.st =
+                clouds ? cloudCoordinates(direction, cloudHeightQu) : vec2((fs + 1) * 0.5f, 1 - (ft + 1) * 0.5f);
             vertex.color = 0xFFFFFFFFu;
             vertices.push_back(vertex);
         }

@@ -11,9 +11,9 @@
 
 namespace q3rt {
 
-inline constexpr int kSkyFaces = 6;       ///< +X -X +Y -Y +Z -Z: images rt lf bk ft up dn
-inline constexpr int kSkyCloudFaces = 5;  ///< clouds never show below
-inline constexpr int kSkyBlocks = 8;      ///< blocks a face side
+inline constexpr int kSkyFaces = 6;      ///< +X -X +Y -Y +Z -Z: images rt lf bk ft up dn
+inline constexpr int kSkyCloudFaces = 5; ///< clouds never show below
+inline constexpr int kSkyBlocks = 8;     ///< blocks a face side
 
 /// Covered part of each face in s, t of [-1, 1].
 class SkyCoverage {
@@ -42,8 +42,8 @@ vec2 cloudCoordinates(const vec3& direction, float heightQu);
 struct SkyFaceRange {
     uint32_t firstIndex = 0, indexCount = 0;
 };
-/// Appends the covered blocks of a face at `eye` + direction * halfSizeQu. Box faces get 0..1 picture coordinates, cloud
-/// faces those of the cloud layer.
+/// Appends the covered blocks of a face at `eye` + direction * halfSizeQu. Box faces get 0..1 picture coordinates,
+/// cloud faces those of the cloud layer.
 SkyFaceRange appendSkyFace(const SkyCoverage& coverage, int face, const vec3& eye, float halfSizeQu, bool clouds,
                            float cloudHeightQu, std::vector<Vertex>& vertices, std::vector<uint32_t>& indices);
 

@@ -25,7 +25,8 @@ void updateFrustum(RasterView& view) {
     const float lengthX = std::sqrt(1.0f + tx * tx), lengthY = std::sqrt(1.0f + ty * ty);
     const vec3 normals[4] = {(forward * tx + left) / lengthX, (forward * tx - left) / lengthX,
                              (forward * ty + up) / lengthY, (forward * ty - up) / lengthY};
-    for (size_t i = 0; i < 4; ++i) view.frustum[i] = {normals[i], glm::dot(normals[i], view.eye.origin)};
+    for (size_t i = 0; i < 4; ++i)
+        view.frustum[i] = {normals[i], glm::dot(normals[i], view.eye.origin)};
 }
 
 void updateProjection(RasterView& view) {
@@ -35,8 +36,10 @@ void updateProjection(RasterView& view) {
     const dvec3 x = -left / static_cast<double>(view.tanHalfX), y = -up / static_cast<double>(view.tanHalfY);
     const dvec3 z = forward * (f / (f - n));
     glm::dmat4 m(0.0);
-    for (int c = 0; c < 3; ++c) m[c] = glm::dvec4(x[c], y[c], z[c], forward[c]);
-    m[3] = glm::dvec4(-glm::dot(x, eye), -glm::dot(y, eye), -glm::dot(z, eye) - f * n / (f - n), -glm::dot(forward, eye));
+    for (int c = 0; c < 3; ++c)
+        m[c] = glm::dvec4(x[c], y[c], z[c], forward[c]);
+    m[3] =
+        glm::dvec4(-glm::dot(x, eye), -glm::dot(y, eye), -glm::dot(z, eye) - f * n / (f - n), -glm::dot(forward, eye));
     view.clipFromWorld = mat4(m);
 }
 
@@ -67,7 +70,8 @@ CullResult cullBox(const RasterView& view, const Bounds& box, const mat4& worldF
     bool clipped = false;
     for (const Plane& plane : view.frustum) {
         size_t front = 0;
-        for (const vec3& corner : corners) front += glm::dot(plane.normal, corner) > plane.distance ? 1u : 0u;
+        for (const vec3& corner : corners)
+            front += glm::dot(plane.normal, corner) > plane.distance ? 1u : 0u;
         if (front == 0) return CullResult::Outside;
         if (front < corners.size()) clipped = true;
     }

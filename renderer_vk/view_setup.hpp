@@ -9,11 +9,11 @@ namespace q3rt {
 
 struct RasterView {
     const SceneView* scene = nullptr;
-    Orientation eye;      ///< origin, forward, left, up
-    vec3 pvsOrigin{0};    ///< whose cluster decides what is visible
-    bool portal = false;  ///< seen through a portal or mirror
+    Orientation eye;       ///< origin, forward, left, up
+    vec3 pvsOrigin{0};     ///< whose cluster decides what is visible
+    bool portal = false;   ///< seen through a portal or mirror
     bool mirrored = false; ///< handedness flipped: the culled side swaps
-    Plane clip;           ///< portal views: what lies behind is not drawn
+    Plane clip;            ///< portal views: what lies behind is not drawn
     float tanHalfX = 1, tanHalfY = 1;
     float nearQu = 4, farQu = 2048;
     std::array<Plane, 4> frustum; ///< side planes through the eye, normals inward

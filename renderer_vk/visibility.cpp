@@ -26,7 +26,8 @@ WorldVisibility::WorldVisibility(const World& world)
     , m_surfaceStamp(world.bsp.surfaces.size()) {
     for (size_t i = 0; i < world.bsp.nodes.size(); ++i) {
         for (const int child : world.bsp.nodes[i].children) {
-            int& parent = child >= 0 ? m_nodeParent[static_cast<size_t>(child)] : m_leafParent[static_cast<size_t>(-1 - child)];
+            int& parent =
+                child >= 0 ? m_nodeParent[static_cast<size_t>(child)] : m_leafParent[static_cast<size_t>(-1 - child)];
             parent = static_cast<int>(i);
         }
     }
@@ -61,7 +62,8 @@ void WorldVisibility::addLeaf(int index, VisibleWorld& out) {
     out.bounds.add(Bounds{vec3(leaf.mins), vec3(leaf.maxs)});
     ++out.leafCount;
     for (int i = 0; i < leaf.leafSurfaceCount; ++i) {
-        const auto surface = static_cast<size_t>(m_world.bsp.leafSurfaces[static_cast<size_t>(leaf.firstLeafSurface + i)]);
+        const auto surface =
+            static_cast<size_t>(m_world.bsp.leafSurfaces[static_cast<size_t>(leaf.firstLeafSurface + i)]);
         if (m_surfaceStamp[surface] == m_stamp) continue;
         m_surfaceStamp[surface] = m_stamp;
         out.surfaces.push_back(static_cast<uint32_t>(surface));

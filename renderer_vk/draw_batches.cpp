@@ -1,0 +1,235 @@
+// The second half of DrawListBuilder: from sorted surfaces to batches, entities, lights and fogs of the frame.
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer_vk/patch_lod.hpp"
+#include "renderer_vk/view_work.hpp"
+
+namespace q3rt {
+
+namespace {
+
+// Half size of the sky cube as a part of the far distance: its corners stay inside.
+constexpr float kSkyPart = 1.75f;
+constexpr float kBlackGrey = 0.0f;
+
+float wholeByte(float value) { return std::floor(std::clamp(value, 0.0f, 1.0f) * 255.0f) / 255.0f; }
+
+StageState pictureStage(TextureId texture) {
+    StageState state{};
+    for (TextureUnitState& unit : state.unit)
+        unit.texture = texture;
+    state.unit[0].coord = kCoordTexture;
+    state.unit[0].clamped = 1;
+    state.color = vec4(1.0f);
+    state.rgbGen = kColorConstant;
+    state.alphaGen = kAlphaConstant;
+    return state;
+}
+
+} // namespace
+
+uint32_t DrawListBuilder::entityIndex(ViewWork& work, uint32_t entity) {
+    int& index = work.entityIndices[entity];
+    if (index >= 0) return static_cast<uint32_t>(index);
+    index = static_cast<int>(work.out.entities.size());
+    const EntityRecord& record = work.geometry.entities[entity];
+    RasterEntity target{};
+    target.clipFromModel = mat4(glm::dmat4(work.view.clipFromWorld) * glm::dmat4(record.worldFromModel));
+    const mat4 rows = glm::transpose(record.worldFromModel);
+    target.worldRow0 = rows[0];
+    target.worldRow1 = rows[1];
+    target.worldRow2 = rows[2];
+    target.clipPlane = work.view.portal ? vec4(work.view.clip.normal, work.view.clip.distance) : vec4(0.0f);
+    target.eyeInModel = entity == 0 ? work.view.eye.origin : record.eyeInModel;
+    target.eyeInWorld = work.view.eye.origin;
+    target.ambient = record.light.ambient;
+    target.directed = record.light.directed;
+    target.lightDirection = record.light.direction;
+    work.out.entities.push_back(target);
+    return static_cast<uint32_t>(index);
+}
+
+int DrawListBuilder::fogIndex(ViewWork& work, int fog) {
+    if (fog <= 0 || !m_world || static_cast<size_t>(fog) >= m_world->fogs.size()) return -1;
+    int& index = work.fogIndices[static_cast<size_t>(fog)];
+    if (index >= 0) return index;
+    const FogVolume& volume = m_world->fogs[static_cast<size_t>(fog)];
+    RasterFog target{};
+    target.color = vec3(wholeByte(volume.color.r), wholeByte(volume.color.g), wholeByte(volume.color.b));
+    target.scale = 1.0f / (8.0f * std::max(volume.depthForOpaque, 1.0f));
+    target.forward = work.view.eye.axis[0];
+    target.eye = work.view.eye.origin;
+    target.hasSurface = volume.hasSurface ? 1 : 0;
+    target.planeNormal = volume.surface.normal;
+    target.planeDistance = volume.surface.distance;
+    // A fog without a surface: the eye counts as inside, every depth as 0.
+    target.eyeDepth =
+        volume.hasSurface ? volume.surface.distance - glm::dot(volume.surface.normal, work.view.eye.origin) : 1.0f;
+    index = static_cast<int>(work.out.fogs.size());
+    work.out.fogs.push_back(target);
+    return index;
+}
+
+void DrawListBuilder::appendLights(ViewWork& work, DrawBatch& batch, size_t firstItem, size_t lastItem) {
+    std::vector<uint32_t> touching;
+    for (size_t i = firstItem; i < lastItem; ++i) {
+        const Item& item = work.items[i];
+        for (uint32_t l = 0; l < item.lightCount; ++l)
+            touching.push_back(work.lightRefs[item.firstLight + l]);
+    }
+    if (touching.empty()) return;
+    std::ranges::sort(touching);
+    touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
+    const mat4 modelFromWorld = glm::inverse(work.geometry.entities[work.items[firstItem].entity].worldFromModel);
+    batch.firstLight = static_cast<uint32_t>(work.out.lights.size());
+    batch.lightCount = static_cast<uint32_t>(touching.size());
+    for (const uint32_t index : touching) {
+        const SceneLight& light = work.lights()[index];
+        RasterLight target{};
+        target.origin = vec3(modelFromWorld * vec4(light.origin, 1.0f));
+        target.radius = light.radius;
+        target.color = light.color;
+        work.out.lights.push_back(target);
+        work.out.lightAdditive.push_back(light.additive ? 1 : 0);
+    }
+}
+
+void DrawListBuilder::appendItemIndices(ViewWork& work, const Item& item) {
+    std::vector<uint32_t>& out = work.out.indices;
+    if (!item.fromWorld) {
+        const EntitySurface& surface = work.geometry.surfaces[item.surface];
+        for (uint32_t i = 0; i < surface.indexCount; ++i)
+            out.push_back(work.vertexBase + work.geometry.indices[surface.firstIndex + i]);
+        return;
+    }
+    const WorldSurface& surface = m_world->surfaces[item.surface];
+    if (surface.patch >= 0) {
+        appendPatchIndices(surface, m_world->patches[static_cast<size_t>(surface.patch)], work.view,
+                           work.geometry.entities[item.entity].worldFromModel, work.settings.raster.r_lodCurveError,
+                           out);
+        return;
+    }
+    const auto first = m_world->indices.begin() + surface.firstIndex;
+    out.insert(out.end(), first, first + surface.indexCount);
+}
+
+void DrawListBuilder::makeBatches(ViewWork& work) {
+    const SceneView& scene = *work.view.scene;
+    ViewDraw draw;
+    draw.x = scene.x;
+    draw.y = scene.y;
+    draw.width = scene.width;
+    draw.height = scene.height;
+    draw.mirrored = work.view.mirrored;
+    draw.clipped = work.view.portal;
+    draw.clearColor = work.settings.fastSky && work.hasWorld();
+    draw.clearGrey = kBlackGrey;
+    if (scene.flags & viewFlag::kHyperspace) {
+        draw.clearColor = true;
+        draw.clearGrey = static_cast<float>(scene.timeMs & 255) / 255.0f;
+    }
+    draw.firstBatch = static_cast<uint32_t>(work.out.batches.size());
+    for (size_t first = 0; first < work.items.size();) {
+        const Item& head = work.items[first];
+        const bool merge = m_materials.get(head.material).entityMergable;
+        size_t last = first + 1;
+        for (; last < work.items.size(); ++last) {
+            const Item& next = work.items[last];
+            const bool same = next.material == head.material && next.fog == head.fog &&
+                              (next.lightCount > 0) == (head.lightCount > 0) && next.fromWorld == head.fromWorld &&
+                              (merge || next.entity == head.entity);
+            if (!same) break;
+        }
+        appendBatch(work, first, last);
+        first = last;
+    }
+    draw.batchCount = static_cast<uint32_t>(work.out.batches.size()) - draw.firstBatch;
+    work.out.views.push_back(draw);
+}
+
+void DrawListBuilder::appendBatch(ViewWork& work, size_t firstItem, size_t lastItem) {
+    const Item& last = work.items[lastItem - 1];
+    const MaterialId id = drawnId(last.material);
+    const Material& material = m_materials.get(id);
+    const float debugSort = work.settings.raster.r_debugSort;
+    if (debugSort > 0 && material.sort > debugSort) return;
+    if (material.isSky) {
+        if (!work.settings.fastSky) appendSky(work, material, id, firstItem, lastItem);
+        work.lastEntity = static_cast<int>(last.entity);
+        return;
+    }
+    const EntityRecord& record = work.geometry.entities[last.entity];
+    StageInputs inputs = record.stage;
+    // The original applies clampTime only to a batch that goes on with the entity of the batch before.
+    if (material.clampTimeSeconds > 0 && work.lastEntity == static_cast<int>(last.entity))
+        inputs.shaderTimeSeconds = std::min<double>(inputs.shaderTimeSeconds, material.clampTimeSeconds);
+    work.lastEntity = static_cast<int>(last.entity);
+
+    DrawBatch batch;
+    batch.material = id;
+    batch.source = last.fromWorld ? VertexSource::World : VertexSource::Dynamic;
+    batch.firstIndex = static_cast<uint32_t>(work.out.indices.size());
+    for (size_t i = firstItem; i < lastItem; ++i)
+        appendItemIndices(work, work.items[i]);
+    batch.indexCount = static_cast<uint32_t>(work.out.indices.size()) - batch.firstIndex;
+    if (batch.indexCount == 0) return;
+    batch.stages = m_stages.evaluate(id, inputs);
+    batch.entity = entityIndex(work, last.entity);
+    batch.fog = fogIndex(work, last.fog);
+    if (record.flags & entityFlag::kDepthHack) batch.depthRange = DepthRange::Weapon;
+    constexpr uint32_t kUnlit = surfaceParm::kNoDlight | surfaceParm::kSky;
+    if (material.sort <= 3 && (material.surfaceFlags & kUnlit) == 0) appendLights(work, batch, firstItem, lastItem);
+    work.out.batches.push_back(batch);
+}
+
+void DrawListBuilder::appendSky(ViewWork& work, const Material& material, MaterialId id, size_t firstItem,
+                                size_t lastItem) {
+    SkyCoverage coverage;
+    coverage.clear();
+    const vec3& eye = work.view.eye.origin;
+    const std::vector<Vertex>& vertices = work.items[firstItem].fromWorld ? m_world->vertices : work.out.vertices;
+    const size_t firstIndex = work.out.indices.size();
+    for (size_t i = firstItem; i < lastItem; ++i)
+        appendItemIndices(work, work.items[i]);
+    for (size_t i = firstIndex; i + 2 < work.out.indices.size(); i += 3) {
+        const auto at = [&](size_t k) { return vertices[work.out.indices[i + k]].position - eye; };
+        coverage.addTriangle(at(0), at(1), at(2));
+    }
+    work.out.indices.resize(firstIndex);
+
+    DrawBatch batch;
+    batch.material = id;
+    batch.source = VertexSource::Dynamic;
+    batch.depthRange = work.settings.raster.r_showsky != 0 ? DepthRange::Near : DepthRange::Far;
+    batch.entity = entityIndex(work, 0);
+    const float halfSize = work.view.farQu / kSkyPart;
+    if (material.sky.hasBox) {
+        for (int face = 0; face < kSkyFaces; ++face) {
+            const SkyFaceRange range =
+                appendSkyFace(coverage, face, eye, halfSize, false, 0, work.out.vertices, work.out.indices);
+            if (range.indexCount == 0) continue;
+            // Images are in the order rt lf bk ft up dn, as the faces are.
+            batch.ownStages = true;
+            batch.stages = {kOwnStageBit | static_cast<uint32_t>(work.out.ownStages.size()), 1};
+            work.out.ownStages.push_back(pictureStage(material.sky.box[static_cast<size_t>(face)]));
+            batch.firstIndex = range.firstIndex;
+            batch.indexCount = range.indexCount;
+            work.out.batches.push_back(batch);
+        }
+    }
+    if (material.stages.empty()) return;
+    batch.ownStages = false;
+    batch.firstIndex = static_cast<uint32_t>(work.out.indices.size());
+    for (int face = 0; face < kSkyCloudFaces; ++face)
+        appendSkyFace(coverage, face, eye, halfSize, true, m_materials.lastCloudHeight, work.out.vertices,
+                      work.out.indices);
+    batch.indexCount = static_cast<uint32_t>(work.out.indices.size()) - batch.firstIndex;
+    if (batch.indexCount == 0) return;
+    batch.stages = m_stages.evaluate(id, work.geometry.entities[0].stage);
+    batch.fog = fogIndex(work, work.items[firstItem].fog);
+    work.out.batches.push_back(batch);
+}
+
+} // namespace q3rt

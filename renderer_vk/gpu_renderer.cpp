@@ -1,0 +1,115 @@
+#include "renderer_vk/gpu_renderer.hpp"
+
+#include "base/error.hpp"
+#include "base/log.hpp"
+#include "gpu/device.hpp"
+
+namespace q3rt {
+
+GpuRenderer::GpuRenderer(EngineServices& engine)
+    : FrontEnd(engine) {
+    bindRasterSettings(settingsBinding(), m_rasterSettings);
+}
+
+GpuRenderer::~GpuRenderer() {
+    if (m_context) m_context->device().waitIdle();
+    m_raster.reset();
+    m_stages.reset();
+}
+
+DisplayInfo GpuRenderer::openDisplay() {
+    if (!m_context) {
+        auto context = std::make_unique<GpuContext>(engine(), m_rasterSettings);
+        m_raster = std::make_unique<RasterScene>(*context);
+        m_context = std::move(context);
+        onDeviceCreated();
+    }
+    DisplayInfo info = m_context->displayInfo();
+    info.rendererText = formatText("%s (%s) on %s", rendererName(), backendName(), info.rendererText.c_str());
+    return info;
+}
+
+void GpuRenderer::onContentCreated() {
+    m_stages = std::make_unique<StageTable>(materials(), textures(), kIdentityLight);
+    m_raster->setContent(materials(), models(), *m_stages);
+}
+
+void GpuRenderer::followTextures(bool flush) {
+    const float anisotropy = m_rasterSettings.r_ext_texture_filter_anisotropic != 0
+                                 ? static_cast<float>(m_rasterSettings.r_ext_max_anisotropy)
+                                 : 1.0f;
+    m_context->textures().follow(textures(), {m_rasterSettings.r_textureMode, anisotropy}, m_context->uploader());
+    if (!m_context->uploader().pending()) return;
+    if (flush)
+        m_context->uploader().flush();
+    else
+        m_context->uploader().record(m_context->ring().commands());
+}
+
+void GpuRenderer::onWorldLoaded() {
+    m_raster->setWorld(world());
+    followTextures(true);
+    onGpuWorldLoaded();
+}
+
+void GpuRenderer::onEndRegistration() {
+    followTextures(true);
+    m_raster->warmPipelines();
+    onGpuReady();
+}
+
+void GpuRenderer::onContentDropped() {
+    if (!m_context) return;
+    m_context->abandonFrame();
+    m_context->device().waitIdle();
+    onGpuContentDropped();
+    m_raster->dropContent();
+    m_stages.reset();
+    m_context->textures().reset();
+}
+
+DrawListSettings GpuRenderer::drawListSettings() const {
+    DrawListSettings result;
+    result.raster = m_rasterSettings;
+    result.geometry = viewGeometrySettings();
+    result.fastSky = settings().r_fastsky != 0;
+    result.drawWorld = settings().r_drawworld != 0;
+    return result;
+}
+
+void GpuRenderer::onFrame(const FrameCommands& frame, FrameImage* capture) {
+    m_context->followWindow(m_rasterSettings);
+    try {
+        drawFrame(frame, capture);
+    } catch (...) {
+        m_context->abandonFrame();
+        throw;
+    }
+    if (settings().q3rt_wantStats != 0) publishStats();
+}
+
+void GpuRenderer::publishStats() {
+    const auto& rows = m_context->ring().timers().results();
+    double total = 0;
+    std::string passes;
+    // A pass may come more than once in a frame: its times add up under one name.
+    std::vector<TimerRow> sums;
+    for (const TimerRow& row : rows) {
+        total += row.ms;
+        bool found = false;
+        for (TimerRow& sum : sums) {
+            if (sum.name != row.name) continue;
+            sum.ms += row.ms;
+            found = true;
+        }
+        if (!found) sums.push_back(row);
+    }
+    for (const TimerRow& sum : sums)
+        passes += formatText("%s\"%s\":%.4f", passes.empty() ? "" : ",", sum.name.c_str(), sum.ms);
+    engine().setCvar("q3rt_stats",
+                     formatText("{\"gpu_ms\":%.4f,\"passes\":{%s},\"device\":\"%s\",\"backend\":\"%s\"%s}", total,
+                                passes.c_str(), m_context->device().capabilities().deviceName.c_str(), backendName(),
+                                extraStats().c_str()));
+}
+
+} // namespace q3rt

@@ -1,0 +1,171 @@
+#include "renderer_vk/pipeline_set.hpp"
+
+#include <cstddef>
+#include <set>
+
+#include "shaders/shared/raster.h"
+#include "shaders/shared/stage.h"
+#include "shaders/shared/vertex.h"
+#include "spirv/vk_raster_frag.hpp"
+#include "spirv/vk_raster_vert.hpp"
+
+namespace q3rt {
+
+namespace {
+
+VkBlendFactor toVulkan(BlendFactor factor) {
+    switch (factor) {
+    case BlendFactor::Zero:
+        return VK_BLEND_FACTOR_ZERO;
+    case BlendFactor::One:
+        return VK_BLEND_FACTOR_ONE;
+    case BlendFactor::SrcColor:
+        return VK_BLEND_FACTOR_SRC_COLOR;
+    case BlendFactor::OneMinusSrcColor:
+        return VK_BLEND_FACTOR_ONE_MINUS_SRC_COLOR;
+    case BlendFactor::DstColor:
+        return VK_BLEND_FACTOR_DST_COLOR;
+    case BlendFactor::OneMinusDstColor:
+        return VK_BLEND_FACTOR_ONE_MINUS_DST_COLOR;
+    case BlendFactor::SrcAlpha:
+        return VK_BLEND_FACTOR_SRC_ALPHA;
+    case BlendFactor::OneMinusSrcAlpha:
+        return VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+    case BlendFactor::DstAlpha:
+        return VK_BLEND_FACTOR_DST_ALPHA;
+    case BlendFactor::OneMinusDstAlpha:
+        return VK_BLEND_FACTOR_ONE_MINUS_DST_ALPHA;
+    case BlendFactor::SrcAlphaSaturate:
+        return VK_BLEND_FACTOR_SRC_ALPHA_SATURATE;
+    }
+    return VK_BLEND_FACTOR_ONE;
+}
+
+VkCompareOp toVulkan(DepthFunc function) {
+    switch (function) {
+    case DepthFunc::LessEqual:
+        return VK_COMPARE_OP_LESS_OR_EQUAL;
+    case DepthFunc::Equal:
+        return VK_COMPARE_OP_EQUAL;
+    case DepthFunc::Always:
+        return VK_COMPARE_OP_ALWAYS;
+    }
+    return VK_COMPARE_OP_LESS_OR_EQUAL;
+}
+
+uint32_t offsetInVertex(size_t offset) { return static_cast<uint32_t>(offset); }
+
+std::vector<VkVertexInputAttributeDescription> vertexAttributes() {
+    return {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetInVertex(offsetof(Vertex, position))},
+            {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetInVertex(offsetof(Vertex, normal))},
+            {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetInVertex(offsetof(Vertex, st))},
+            {3, 0, VK_FORMAT_R32G32_SFLOAT, offsetInVertex(offsetof(Vertex, lightmapSt))},
+            {4, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetInVertex(offsetof(Vertex, color))}};
+}
+
+// Red, green, blue: the original's frame buffer has no alpha, it always reads 1.
+constexpr VkColorComponentFlags kColorOnly =
+    VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT;
+
+} // namespace
+
+StateKey stageKey(const Stage& stage, bool clipped) {
+    StateKey key;
+    key.blended = stage.blended;
+    if (stage.blended) {
+        key.source = stage.source;
+        key.destination = stage.destination;
+    }
+    key.depthFunc = stage.depthFunc;
+    key.depthWrite = stage.depthWrite;
+    key.alphaTest = stage.alphaTest;
+    key.combine = stage.combine;
+    key.pass = kPassStage;
+    key.clipped = clipped;
+    return key;
+}
+
+StateKey lightKey(bool additive, bool clipped) {
+    StateKey key;
+    key.blended = true;
+    key.source = additive ? BlendFactor::One : BlendFactor::DstColor;
+    key.destination = BlendFactor::One;
+    key.depthFunc = DepthFunc::Equal;
+    key.depthWrite = false;
+    key.pass = kPassLight;
+    key.clipped = clipped;
+    return key;
+}
+
+StateKey fogKey(bool depthEqual, bool clipped) {
+    StateKey key;
+    key.blended = true;
+    key.source = BlendFactor::SrcAlpha;
+    key.destination = BlendFactor::OneMinusSrcAlpha;
+    key.depthFunc = depthEqual ? DepthFunc::Equal : DepthFunc::LessEqual;
+    key.depthWrite = false;
+    key.pass = kPassFog;
+    key.clipped = clipped;
+    return key;
+}
+
+StateKey overlayKey() {
+    StateKey key;
+    key.blended = true;
+    key.source = BlendFactor::SrcAlpha;
+    key.destination = BlendFactor::OneMinusSrcAlpha;
+    key.depthFunc = DepthFunc::Always;
+    key.depthWrite = false;
+    return key;
+}
+
+StateKey skyBoxKey(bool clipped) {
+    StateKey key;
+    key.depthWrite = false;
+    key.clipped = clipped;
+    return key;
+}
+
+PipelineSet::PipelineSet(Device& device, VkDescriptorSetLayout frameLayout, VkDescriptorSetLayout textureLayout)
+    : m_device(device)
+    , m_frameLayout(frameLayout)
+    , m_textureLayout(textureLayout) {}
+
+const GraphicsPipeline& PipelineSet::find(const StateKey& key) {
+    if (const auto known = m_pipelines.find(key); known != m_pipelines.end()) return known->second;
+    const std::vector<uint32_t> constants = {key.pass, static_cast<uint32_t>(key.combine),
+                                             static_cast<uint32_t>(key.alphaTest), key.clipped ? 1u : 0u};
+    GraphicsPipelineInfo info;
+    info.name = "raster";
+    info.vertex = {shaders::vk_raster_vert, constants};
+    info.fragment = {shaders::vk_raster_frag, constants};
+    info.interface = {{m_frameLayout, m_textureLayout}, sizeof(RasterDraw)};
+    info.vertexBindings = {{0, sizeof(Vertex), VK_VERTEX_INPUT_RATE_VERTEX}};
+    info.vertexAttributes = vertexAttributes();
+    info.depthBias = true; // 0 unless a material asks for an offset
+    info.depthTest = true;
+    info.depthWrite = key.depthWrite;
+    info.depthCompare = toVulkan(key.depthFunc);
+    info.depthFormat = VK_FORMAT_D32_SFLOAT;
+    info.colorFormats = {VK_FORMAT_R8G8B8A8_UNORM};
+    info.blends = {{key.blended, toVulkan(key.source), toVulkan(key.destination), VK_BLEND_OP_ADD, kColorOnly}};
+    info.dynamicStates = {VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE, VK_DYNAMIC_STATE_DEPTH_BIAS};
+    return m_pipelines.emplace(key, GraphicsPipeline(m_device, info)).first->second;
+}
+
+std::vector<StateKey> PipelineSet::statesOf(const MaterialLibrary& materials, bool clipped) {
+    std::set<StateKey> states = {overlayKey(),          skyBoxKey(false),    lightKey(false, false),
+                                 lightKey(true, false), fogKey(true, false), fogKey(false, false)};
+    if (clipped)
+        states.insert(
+            {skyBoxKey(true), lightKey(false, true), lightKey(true, true), fogKey(true, true), fogKey(false, true)});
+    for (size_t i = 0; i < materials.count(); ++i) {
+        for (const Stage& stage : materials.get(static_cast<MaterialId>(i)).stages) {
+            states.insert(stageKey(stage, false));
+            if (clipped) states.insert(stageKey(stage, true));
+        }
+    }
+    return {states.begin(), states.end()};
+}
+
+} // namespace q3rt

@@ -1,0 +1,264 @@
+#include "renderer_vk/raster_scene.hpp"
+
+#include <algorithm>
+
+#include "gpu/device.hpp"
+
+namespace q3rt {
+
+namespace {
+
+constexpr VkDeviceSize kFirstStreamBytes = VkDeviceSize{1} << 20;
+constexpr VkDeviceSize kStorageAlignment = 256; // the largest that Vulkan lets a device ask for
+// Weapons keep to the nearest part of the depth range, so that they never reach into walls.
+constexpr float kWeaponDepth = 0.3f;
+
+DescriptorLayout makeFrameLayout(Device& device) {
+    return DescriptorLayout(device,
+                            {{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                             {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                             {2, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER},
+                             {3, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}},
+                            "raster frame");
+}
+
+BufferInfo streamInfo(VkBufferUsageFlags usage, const char* name) {
+    return {.size = kFirstStreamBytes, .usage = usage, .domain = MemoryDomain::Upload, .name = name};
+}
+
+VkViewport viewportOf(const ViewDraw& view, DepthRange range) {
+    VkViewport viewport{static_cast<float>(view.x),
+                        static_cast<float>(view.y),
+                        static_cast<float>(view.width),
+                        static_cast<float>(view.height),
+                        0.0f,
+                        1.0f};
+    if (range == DepthRange::Weapon) viewport.maxDepth = kWeaponDepth;
+    if (range == DepthRange::Far) viewport.minDepth = 1.0f;
+    if (range == DepthRange::Near) viewport.maxDepth = 0.0f;
+    return viewport;
+}
+
+/// The view's rectangle inside the target; empty (0 wide) if none of it is.
+VkRect2D scissorOf(const ViewDraw& view, VkExtent2D extent) {
+    const int left = std::clamp(view.x, 0, static_cast<int>(extent.width));
+    const int top = std::clamp(view.y, 0, static_cast<int>(extent.height));
+    const int right = std::clamp(view.x + view.width, left, static_cast<int>(extent.width));
+    const int bottom = std::clamp(view.y + view.height, top, static_cast<int>(extent.height));
+    return {{left, top}, {static_cast<uint32_t>(right - left), static_cast<uint32_t>(bottom - top)}};
+}
+
+} // namespace
+
+/// What the command buffer has now, so that equal state is not set again.
+struct RasterScene::BoundState {
+    const GraphicsPipeline* pipeline = nullptr;
+    int source = -1, range = -1, cull = -1, offset = -1;
+};
+
+RasterScene::RasterScene(GpuContext& context)
+    : m_context(context)
+    , m_frameLayout(makeFrameLayout(context.device()))
+    , m_pipelines(context.device(), m_frameLayout.handle(), context.textures().layout())
+    , m_vertexStream(context.device(), streamInfo(VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "vertex stream"),
+                     context.ring().framesInFlight())
+    , m_indexStream(context.device(), streamInfo(VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "index stream"),
+                    context.ring().framesInFlight())
+    , m_storageStream(context.device(), streamInfo(VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "storage stream"),
+                      context.ring().framesInFlight())
+    , m_bound(std::make_unique<BoundState>()) {}
+
+RasterScene::~RasterScene() = default;
+
+void RasterScene::setContent(const MaterialLibrary& materials, const ModelLibrary& models, StageTable& stages) {
+    m_materials = &materials;
+    m_models = &models;
+    m_stages = &stages;
+    setWorld(nullptr);
+}
+
+void RasterScene::setWorld(const World* world) {
+    m_builder = std::make_unique<DrawListBuilder>(*m_materials, *m_models, *m_stages, world);
+    m_worldVertices = Buffer();
+    if (!world) return;
+    const std::span<const Vertex> vertices(world->vertices);
+    m_worldVertices =
+        Buffer(m_context.device(), {.size = vertices.size_bytes(),
+                                    .usage = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                    .name = "world vertices"});
+    m_context.uploader().upload(m_worldVertices, vertices);
+    m_context.uploader().flush();
+}
+
+void RasterScene::dropContent() {
+    m_builder.reset();
+    m_worldVertices = Buffer();
+    m_materials = nullptr;
+    m_models = nullptr;
+    m_stages = nullptr;
+    m_data.clear();
+}
+
+void RasterScene::beginFrame() {
+    m_data.clear();
+    const uint32_t slot = m_context.ring().slot();
+    m_vertexStream.beginFrame(slot);
+    m_indexStream.beginFrame(slot);
+    m_storageStream.beginFrame(slot);
+    m_frameSet = VK_NULL_HANDLE;
+}
+
+void RasterScene::addView(FrameGraph& graph, FrameTargets& targets, const FrameCommands& frame, const SceneView& scene,
+                          const DrawListSettings& settings, const char* pass) {
+    if (!m_builder) return;
+    m_offsetFactor = settings.raster.r_offsetFactor;
+    m_offsetUnits = settings.raster.r_offsetUnits;
+    const auto first = static_cast<uint32_t>(m_data.views.size());
+    m_builder->addScene(frame, scene, settings, m_data);
+    recordPass(graph, targets, pass, first, static_cast<uint32_t>(m_data.views.size()) - first);
+}
+
+void RasterScene::recordPass(FrameGraph& graph, FrameTargets& targets, const char* name, uint32_t firstView,
+                             uint32_t viewCount) {
+    graph.addPass(
+        name,
+        [&](PassBuilder& pass) {
+            targets.color = pass.write(targets.color, access::kColorAttachment);
+            targets.depth = pass.write(targets.depth, access::kDepthAttachment);
+        },
+        [this, current = targets, firstView, viewCount](PassContext& pass) {
+            recordViews(pass, current, firstView, viewCount);
+        });
+}
+
+void RasterScene::uploadFrame() {
+    if (!m_stages) return;
+    m_vertexSlice = m_vertexStream.append(std::span<const Vertex>(m_data.vertices));
+    m_indexSlice = m_indexStream.append(std::span<const uint32_t>(m_data.indices));
+    // One buffer of stages: the materials' first, then those of sky boxes and cinematics.
+    const auto& table = m_stages->states();
+    m_tableStageCount = static_cast<uint32_t>(table.size());
+    const size_t count = table.size() + m_data.ownStages.size();
+    m_stageSlice = m_storageStream.reserve(std::max<size_t>(count, 1) * sizeof(StageState), kStorageAlignment);
+    auto* stages = reinterpret_cast<StageState*>(m_stageSlice.mapped);
+    std::copy(table.begin(), table.end(), stages);
+    std::copy(m_data.ownStages.begin(), m_data.ownStages.end(), stages + table.size());
+    // A set must name a buffer even when nothing is in it.
+    if (m_data.entities.empty()) m_data.entities.emplace_back();
+    if (m_data.lights.empty()) m_data.lights.emplace_back();
+    if (m_data.fogs.empty()) m_data.fogs.emplace_back();
+    m_entitySlice = m_storageStream.append(std::span<const RasterEntity>(m_data.entities), kStorageAlignment);
+    m_lightSlice = m_storageStream.append(std::span<const RasterLight>(m_data.lights), kStorageAlignment);
+    m_fogSlice = m_storageStream.append(std::span<const RasterFog>(m_data.fogs), kStorageAlignment);
+}
+
+void RasterScene::bindFrame(PassContext& pass) {
+    if (m_frameSet == VK_NULL_HANDLE) {
+        const auto bind = [](uint32_t slot, const BufferSlice& slice) {
+            return bindStorageBuffer(slot, slice.buffer, slice.offset, slice.size);
+        };
+        m_frameSet = pass.makeSet(
+            m_frameLayout, {bind(0, m_stageSlice), bind(1, m_entitySlice), bind(2, m_lightSlice), bind(3, m_fogSlice)});
+    }
+    *m_bound = BoundState{};
+    vkCmdBindIndexBuffer(pass.commands(), m_indexSlice.buffer, m_indexSlice.offset, VK_INDEX_TYPE_UINT32);
+}
+
+void RasterScene::recordViews(PassContext& pass, FrameTargets targets, uint32_t firstView, uint32_t viewCount) {
+    const Attachment color{.view = pass.view(targets.color)};
+    const Attachment depth{.view = pass.view(targets.depth)};
+    beginRendering(pass.commands(), pass.extent(targets.color), std::span(&color, 1), depth);
+    bindFrame(pass);
+    for (uint32_t i = 0; i < viewCount; ++i)
+        recordView(pass, m_data.views[firstView + i], pass.extent(targets.color));
+    vkCmdEndRenderingKHR(pass.commands());
+}
+
+void RasterScene::recordView(PassContext& pass, const ViewDraw& view, VkExtent2D extent) {
+    const VkRect2D scissor = scissorOf(view, extent);
+    if (scissor.extent.width == 0 || scissor.extent.height == 0) return;
+    vkCmdSetScissor(pass.commands(), 0, 1, &scissor);
+    m_bound->range = -1;
+    VkClearAttachment clears[2] = {};
+    uint32_t clearCount = 0;
+    if (view.clearDepth) clears[clearCount++] = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, {.depthStencil = {1.0f, 0}}};
+    if (view.clearColor) {
+        const float grey = view.clearGrey;
+        clears[clearCount++] = {VK_IMAGE_ASPECT_COLOR_BIT, 0, {.color = {.float32 = {grey, grey, grey, 1.0f}}}};
+    }
+    const VkClearRect area{scissor, 0, 1};
+    if (clearCount > 0) vkCmdClearAttachments(pass.commands(), clearCount, clears, 1, &area);
+    for (uint32_t i = 0; i < view.batchCount; ++i)
+        recordBatch(pass.commands(), view, m_data.batches[view.firstBatch + i]);
+}
+
+void RasterScene::recordBatch(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch) {
+    const Material& material = m_materials->get(batch.material);
+    RasterDraw constants{};
+    constants.entity = batch.entity;
+    if (batch.ownStages) {
+        constants.stage = m_tableStageCount + (batch.stages.first & ~kOwnStageBit);
+        draw(commands, batch.blendOwn ? overlayKey() : skyBoxKey(view.clipped), constants, batch, false,
+             batch.blendOwn ? CullMode::None : CullMode::Front, view);
+        return;
+    }
+    if (batch.fog >= 0) constants.fog = static_cast<uint32_t>(batch.fog);
+    const auto stageCount = std::min<size_t>(material.stages.size(), batch.stages.count);
+    for (size_t i = 0; i < stageCount; ++i) {
+        constants.stage = batch.stages.first + static_cast<uint32_t>(i);
+        constants.useFog = batch.fog >= 0 && material.stages[i].fogFade != FogFade::None ? 1 : 0;
+        draw(commands, stageKey(material.stages[i], view.clipped), constants, batch, material.polygonOffset,
+             material.cull, view);
+    }
+    constants.useFog = 0;
+    for (uint32_t i = 0; i < batch.lightCount; ++i) {
+        constants.pass = kPassLight;
+        constants.light = batch.firstLight + i;
+        const bool additive = m_data.lightAdditive[constants.light] != 0;
+        draw(commands, lightKey(additive, view.clipped), constants, batch, material.polygonOffset, material.cull, view);
+    }
+    const bool opaque = material.sort <= 3;
+    if (batch.fog >= 0 && (opaque || (material.contentFlags & surfaceParm::kContentsFog) != 0)) {
+        constants.pass = kPassFog;
+        draw(commands, fogKey(opaque, view.clipped), constants, batch, material.polygonOffset, material.cull, view);
+    }
+}
+
+void RasterScene::draw(VkCommandBuffer commands, const StateKey& key, const RasterDraw& constants,
+                       const DrawBatch& batch, bool polygonOffset, CullMode cull, const ViewDraw& view) {
+    const GraphicsPipeline& pipeline = m_pipelines.find(key);
+    if (m_bound->pipeline != &pipeline) {
+        pipeline.bind(commands);
+        if (!m_bound->pipeline) pipeline.bindSets(commands, {m_frameSet, m_context.textures().set()});
+        m_bound->pipeline = &pipeline;
+    }
+    if (m_bound->source != static_cast<int>(batch.source)) {
+        m_bound->source = static_cast<int>(batch.source);
+        const bool world = batch.source == VertexSource::World;
+        const VkBuffer buffer = world ? m_worldVertices.handle() : m_vertexSlice.buffer;
+        const VkDeviceSize offset = world ? 0 : m_vertexSlice.offset;
+        vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
+    }
+    if (m_bound->range != static_cast<int>(batch.depthRange)) {
+        m_bound->range = static_cast<int>(batch.depthRange);
+        const VkViewport viewport = viewportOf(view, batch.depthRange);
+        vkCmdSetViewport(commands, 0, 1, &viewport);
+    }
+    const int cullState = static_cast<int>(cull) * 2 + (view.mirrored ? 1 : 0);
+    if (m_bound->cull != cullState) {
+        m_bound->cull = cullState;
+        // Clockwise on the screen is the front; a mirror turns it round.
+        vkCmdSetFrontFaceEXT(commands, view.mirrored ? VK_FRONT_FACE_COUNTER_CLOCKWISE : VK_FRONT_FACE_CLOCKWISE);
+        vkCmdSetCullModeEXT(commands, cull == CullMode::None    ? VK_CULL_MODE_NONE
+                                      : cull == CullMode::Front ? VK_CULL_MODE_BACK_BIT
+                                                                : VK_CULL_MODE_FRONT_BIT);
+    }
+    if (m_bound->offset != (polygonOffset ? 1 : 0)) {
+        m_bound->offset = polygonOffset ? 1 : 0;
+        vkCmdSetDepthBias(commands, polygonOffset ? m_offsetUnits : 0.0f, 0.0f, polygonOffset ? m_offsetFactor : 0.0f);
+    }
+    pipeline.push(commands, constants);
+    vkCmdDrawIndexed(commands, batch.indexCount, 1, batch.firstIndex, 0, 0);
+}
+
+} // namespace q3rt

@@ -1,0 +1,83 @@
+#include "renderer_vk/texture_store.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "gpu/device.hpp"
+#include "gpu/sampler.hpp"
+
+namespace q3rt {
+
+TextureStore::TextureStore(Device& device)
+    : m_device(device) {
+    m_fallback = GpuImage(device, {.extent = {1, 1}, .name = "texture fallback"});
+    Uploader uploader(device, 256);
+    const std::array<uint8_t, 4> white = {255, 255, 255, 255};
+    uploader.upload(m_fallback, std::as_bytes(std::span(white)));
+    uploader.flush();
+    reset();
+}
+
+void TextureStore::reset() {
+    m_bindless.reset();
+    m_entries.clear();
+    m_bindless = std::make_unique<BindlessTextures>(m_device, m_fallback.view(), m_device.samplers().find({}));
+}
+
+VkSampler TextureStore::samplerOf(const Texture& texture) const {
+    SamplerInfo info;
+    if (texture.flags.clamp) info.addressU = info.addressV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    if (!texture.flags.mipmap) {
+        info.maxLod = 0;
+        return m_device.samplers().find(info);
+    }
+    const std::string& mode = m_filter.mode;
+    const bool nearestTexel = mode.starts_with("GL_NEAREST");
+    info.magFilter = info.minFilter = nearestTexel ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
+    info.mipmapMode = mode.ends_with("MIPMAP_NEAREST") ? VK_SAMPLER_MIPMAP_MODE_NEAREST : VK_SAMPLER_MIPMAP_MODE_LINEAR;
+    if (mode.find("MIPMAP") == std::string::npos) info.maxLod = 0;
+    info.maxAnisotropy = m_filter.anisotropy;
+    return m_device.samplers().find(info);
+}
+
+void TextureStore::create(const Texture& texture, Entry& entry, Uploader& uploader) {
+    const MipLevel& base = texture.levels.front();
+    ImageInfo info;
+    info.extent = {static_cast<uint32_t>(base.width), static_cast<uint32_t>(base.height)};
+    info.mipCount = static_cast<uint32_t>(texture.levels.size());
+    info.name = texture.name;
+    entry.image = std::make_unique<GpuImage>(m_device, info);
+    for (uint32_t level = 0; level < info.mipCount; ++level)
+        uploader.upload(*entry.image, std::as_bytes(std::span(texture.levels[level].rgba)), level);
+    entry.version = texture.version;
+}
+
+void TextureStore::follow(const TextureLibrary& library, const TextureFilter& filter, Uploader& uploader) {
+    const bool filterChanged = !(filter == m_filter);
+    m_filter = filter;
+    for (TextureId id = 0; id < library.count(); ++id) {
+        const Texture& texture = library.get(id);
+        if (id == m_entries.size()) {
+            m_entries.emplace_back();
+            create(texture, m_entries[id], uploader);
+            m_bindless->add(m_entries[id].image->view(), samplerOf(texture));
+            continue;
+        }
+        Entry& entry = m_entries[id];
+        const MipLevel& base = texture.levels.front();
+        const VkExtent2D extent = {static_cast<uint32_t>(base.width), static_cast<uint32_t>(base.height)};
+        const bool sameSize =
+            entry.image->extent().width == extent.width && entry.image->extent().height == extent.height;
+        if (entry.version != texture.version && sameSize) {
+            uploader.uploadRegion(*entry.image, {0, 0}, extent, std::as_bytes(std::span(base.rgba)));
+            entry.version = texture.version;
+        } else if (entry.version != texture.version) {
+            create(texture, entry, uploader);
+            m_bindless->replace(id, entry.image->view(), samplerOf(texture));
+        } else if (filterChanged) {
+            m_bindless->replace(id, entry.image->view(), samplerOf(texture));
+        }
+    }
+}
+
+} // namespace q3rt

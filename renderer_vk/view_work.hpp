@@ -1,0 +1,41 @@
+#pragma once
+// Working state of one view while its draw list is made; shared by the parts of DrawListBuilder.
+
+#include "renderer_vk/draw_list.hpp"
+
+namespace q3rt {
+
+struct DrawListBuilder::ViewWork {
+    ViewWork(const FrameCommands& frameCommands, const DrawListSettings& listSettings, const RasterView& rasterView,
+             FrameDrawData& data)
+        : frame(frameCommands)
+        , settings(listSettings)
+        , view(rasterView)
+        , out(data) {}
+
+    const FrameCommands& frame;
+    const DrawListSettings& settings;
+    RasterView view;
+    FrameDrawData& out;
+    VisibleWorld visible;
+    ViewGeometry geometry;
+    std::vector<Item> items;
+    std::vector<SurfaceLight> worldLights; ///< by position in visible.surfaces
+    std::vector<uint32_t> lightRefs;       ///< lists of lights that items point into
+    std::vector<int> entityIndices;        ///< by geometry entity: index in out.entities, -1 not yet
+    std::vector<int> fogIndices;           ///< by fog number, -1 not yet
+    std::vector<CullResult> entityCull;
+    std::vector<int> deformedSurface; ///< by world surface: index in geometry.surfaces, -1 drawn as it is
+    uint32_t vertexBase = 0;          ///< of geometry.vertices in out.vertices
+    int lastEntity = -1;              ///< of the batch before
+
+    bool hasWorld() const { return (view.scene->flags & viewFlag::kNoWorldModel) == 0; }
+    std::span<const SceneLight> lights() const {
+        return std::span(frame.lights).subspan(view.scene->firstLight, view.scene->lightCount);
+    }
+    std::span<const SceneEntity> entities() const {
+        return std::span(frame.entities).subspan(view.scene->firstEntity, view.scene->entityCount);
+    }
+};
+
+} // namespace q3rt

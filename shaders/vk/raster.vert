@@ -1,0 +1,74 @@
+// Every raster draw: a material stage, a dynamic light over it, or fog over it. Positions are computed the same way in
+// all three, so that their depths are equal.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#include "vk/raster_frame.glsl"
+#include "vk/raster_generate.glsl"
+
+layout(location = 0) in vec3 inPosition;
+layout(location = 1) in vec3 inNormal;
+layout(location = 2) in vec2 inSt;
+layout(location = 3) in vec2 inLightmapSt;
+layout(location = 4) in vec4 inColor;
+
+layout(location = 0) out vec4 outColor;
+layout(location = 1) out vec2 outSt0;
+layout(location = 2) out vec2 outSt1;
+layout(location = 3) out float outClip;
+invariant gl_Position;
+
+vec3 worldPosition() {
+    vec4 p = vec4(inPosition, 1.0);
+    return vec3(dot(entities[draw.entity].worldRow0, p), dot(entities[draw.entity].worldRow1, p),
+                dot(entities[draw.entity].worldRow2, p));
+}
+
+void generateStage() {
+    uint stage = draw.stage;
+    vec3 eye = entities[draw.entity].eyeInModel;
+    outColor.rgb =
+        generateRgb(stages[stage].rgbGen, stages[stage].color.rgb, inColor, inNormal, entities[draw.entity]);
+    outColor.a = generateAlpha(stages[stage].alphaGen, stages[stage].color.a, inColor, inPosition, inNormal,
+                               stages[stage].portalRange, entities[draw.entity]);
+    if (draw.useFog != 0u) {
+        float keep = 1.0 - fogDensity(fogCoordinates(draw.fog, worldPosition()));
+        uint fade = stages[stage].fogFade;
+        if (fade == kFadeRgb || fade == kFadeRgba) outColor.rgb = truncateBytes(outColor.rgb * 255.0 * keep);
+        if (fade == kFadeAlpha || fade == kFadeRgba) outColor.a = floor(outColor.a * 255.0 * keep) / 255.0;
+    }
+    outSt0 = unitCoordinates(stage, 0u, inPosition, inNormal, inSt, inLightmapSt, eye);
+    if (kCombine != kCombineSingle)
+        outSt1 = unitCoordinates(stage, 1u, inPosition, inNormal, inSt, inLightmapSt, eye);
+}
+
+// The light's picture lies in the x, y plane of the surface's own space, whatever way the wall faces.
+void generateLight() {
+    vec3 toLight = lights[draw.light].origin - inPosition;
+    float radius = lights[draw.light].radius;
+    outSt0 = 0.5 + toLight.xy / radius;
+    float height = abs(toLight.z);
+    float strength = height > radius ? 0.0 : height < radius * 0.5 ? 1.0 : 2.0 * (radius - height) / radius;
+    vec3 bytes = floor(255.0 * lights[draw.light].color * strength);
+    outColor = vec4(mod(bytes, 256.0) / 255.0, 1.0);
+}
+
+void main() {
+    gl_Position = entities[draw.entity].clipFromModel * vec4(inPosition, 1.0);
+    outColor = vec4(1.0);
+    outSt0 = vec2(0.0);
+    outSt1 = vec2(0.0);
+    outClip = 1.0;
+    if (kClipped != 0u) {
+        vec4 plane = entities[draw.entity].clipPlane;
+        outClip = dot(plane.xyz, worldPosition()) - plane.w;
+    }
+    if (kPass == kPassStage) {
+        generateStage();
+    } else if (kPass == kPassLight) {
+        generateLight();
+    } else {
+        outColor = vec4(fogs[draw.fog].color, 1.0);
+        outSt0 = fogCoordinates(draw.fog, worldPosition());
+    }
+}
