@@ -53,10 +53,10 @@ void readMap(MaterialDraft& draft, StageDraft& stage, const ScriptLine& line, co
     unit.framesPerSecond = 0;
     unit.videoSlot = -1;
     unit.isLightmap = unit.isWhite = false;
-    stage.hasImage = true;
+    stage.hasImage = false;
     if (!clamp && equalsIgnoringCase(name, "$whiteimage")) {
         unit.frames = {builtinTexture::kWhite};
-        unit.isWhite = true;
+        unit.isWhite = stage.hasImage = true;
         return;
     }
     if (!clamp && equalsIgnoringCase(name, "$lightmap")) {
@@ -64,12 +64,13 @@ void readMap(MaterialDraft& draft, StageDraft& stage, const ScriptLine& line, co
         unit.isLightmap = context.lightmap >= 0 && page < context.lightmaps.size();
         unit.isWhite = !unit.isLightmap;
         unit.frames = {unit.isLightmap ? context.lightmaps[page] : builtinTexture::kWhite};
-        stage.namedLightmap = true;
+        stage.namedLightmap = stage.hasImage = true;
         return;
     }
     const auto image = context.textures.load(name, stageFlags(draft, clamp));
     if (!image) return draft.fail(line.line, "no image '" + std::string(name) + "'");
     unit.frames = {*image};
+    stage.hasImage = true;
     unit.isWhite = *image == builtinTexture::kWhite;
 }
 
@@ -77,7 +78,7 @@ void readAnimation(MaterialDraft& draft, StageDraft& stage, const ScriptLine& li
     if (line.arguments.empty()) return draft.fail(line.line, "animMap without a frequency");
     TextureUnit& unit = stage.stage.unit[0];
     unit.frames.clear();
-    unit.isLightmap = unit.isWhite = false;
+    unit.isLightmap = unit.isWhite = stage.hasImage = false;
     unit.framesPerSecond = numberAt(line, 0);
     if (line.arguments.size() > kMaxAnimationFrames + 1) draft.warn(line.line, "animMap: only 8 frames count");
     const size_t end = std::min(line.arguments.size(), kMaxAnimationFrames + 1);
