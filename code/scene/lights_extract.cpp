@@ -45,7 +45,8 @@ class Extractor {
             const WorldSurface& surface = m_world.surfaces[i];
             if (!surface.drawn) continue;
             const Material& material = m_materials.get(surface.material);
-            if (material.isSky) {
+            // To the compilers surfaceparm sky makes a sky, also without the skyparms that draw one.
+            if (material.isSky || (material.surfaceFlags & surfaceParm::kSky)) {
                 addSky(static_cast<int>(i), material);
             } else if (material.light.surfaceLight > 0.0f) {
                 addEmitter(static_cast<int>(i), material);
