@@ -235,7 +235,7 @@ class BspParser {
     }
 
     void readSurfaces(Bsp& bsp) {
-        readRecords(kSurfaces, bsp.surfaces, [this](ByteReader& reader, size_t i) {
+        readRecords(kSurfaces, bsp.surfaces, [this, &bsp](ByteReader& reader, size_t i) {
             BspSurface surface;
             surface.shader = reader.i32();
             surface.fog = reader.i32();
@@ -254,6 +254,9 @@ class BspParser {
                 vector = readFiniteVec3(reader);
             surface.patchWidth = reader.i32();
             surface.patchHeight = reader.i32();
+            // Some compilers left a fog number on flares of maps without fog; a flare has no use for it.
+            const bool noSuchFog = surface.fog < 0 || static_cast<size_t>(surface.fog) >= bsp.fogs.size();
+            if (surface.type == BspSurfaceType::Flare && noSuchFog) surface.fog = -1;
             return surface;
         });
     }
