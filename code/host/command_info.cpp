@@ -1,0 +1,110 @@
+// q3rt info: what a map holds and requires.
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "formats/pk3_file_source.hpp"
+#include "host/census.hpp"
+#include "host/commands.hpp"
+#include "host/installation.hpp"
+
+namespace q3rt {
+
+namespace {
+
+struct InfoArguments {
+    std::string map;
+    GameChoice game;
+    bool json = false;
+};
+
+nlohmann::ordered_json toJson(const MapCensus& census) {
+    return {{"map", census.map},
+            {"faces",
+             {{"planar", census.planarFaces},
+              {"patch", census.patches},
+              {"triangle_soup", census.triangleSoups},
+              {"flare", census.flares},
+              {"hidden_patches", census.hiddenPatches},
+              {"drawn", census.drawnFaces}}},
+            {"triangles", {{"drawn", census.drawnTriangles}, {"zero_area", census.zeroAreaTriangles}}},
+            {"vertices", census.vertices},
+            {"brush_models", census.brushModels},
+            {"materials", {{"used", census.materials}, {"missing", census.missingMaterials}}},
+            {"clusters", census.clusters},
+            {"lightmap_pages", census.lightmapPages},
+            {"light_grid", census.lightGrid},
+            {"fog_volumes", census.fogVolumes},
+            {"entities", census.entities},
+            {"spawn_points", census.spawnPoints},
+            {"size_qu", {census.sizeQu.x, census.sizeQu.y, census.sizeQu.z}},
+            {"lights",
+             {{"emissive_faces", census.emissiveFaces},
+              {"triangles", census.triangleLights},
+              {"triangles_seen_by_a_cluster", census.meanVisibleLights},
+              {"suns", census.suns},
+              {"skies", census.skyLights},
+              {"points", census.pointLights}}},
+            {"requires", census.requirements}};
+}
+
+void printText(const MapCensus& c) {
+    std::printf("%s: %.0f x %.0f x %.0f units\n", c.map.c_str(), double(c.sizeQu.x), double(c.sizeQu.y),
+                double(c.sizeQu.z));
+    std::printf("faces      %zu planar, %zu patches (%zu hidden), %zu triangle soups, %zu flares; %zu drawn\n",
+                c.planarFaces, c.patches, c.hiddenPatches, c.triangleSoups, c.flares, c.drawnFaces);
+    std::printf("triangles  %zu drawn (%zu of no area), %zu vertices\n", c.drawnTriangles, c.zeroAreaTriangles,
+                c.vertices);
+    std::printf("models     %zu brush models; %zu entities, %zu spawn points\n", c.brushModels, c.entities,
+                c.spawnPoints);
+    std::printf("materials  %zu used, %zu missing\n", c.materials, c.missingMaterials);
+    std::printf("light      %zu lightmap pages, light grid %s\n", c.lightmapPages, c.lightGrid ? "present" : "absent");
+    std::printf(
+        "lights     %zu triangles of %zu emissive faces (a cluster sees %.1f), %zu suns, %zu skies, %zu points\n",
+        c.triangleLights, c.emissiveFaces, c.meanVisibleLights, c.suns, c.skyLights, c.pointLights);
+    std::printf("visibility %zu clusters; %zu fog volumes\n", c.clusters, c.fogVolumes);
+    std::printf("requires  ");
+    for (const auto& [what, count] : c.requirements)
+        std::printf("%s %s (%zu)", &what == &c.requirements.begin()->first ? "" : ",", what.c_str(), count);
+    std::printf("%s\n", c.requirements.empty() ? " nothing beyond opaque lit surfaces" : "");
+}
+
+void runInfo(const InfoArguments& arguments) {
+    const Installation installation = findInstallation(arguments.game);
+    if (installation.archives.empty())
+        throw ContentError(formatText("%s has no pk3 archives: install openarena-data, or name the folders with "
+                                      "--basepath and --game",
+                                      (installation.dataBase / installation.game).c_str()));
+    Pk3FileSource files({installation.dataBase}, {installation.game});
+    TextureLibrary textures(files, TextureSettings{});
+    MaterialLibrary materials(files, textures, MaterialSettings{});
+    const auto world = loadWorld(files, "maps/" + arguments.map + ".bsp", materials, WorldSettings{});
+    const MapCensus census = takeCensus(*world, materials);
+    if (arguments.json)
+        std::printf("%s\n", toJson(census).dump().c_str());
+    else
+        printText(census);
+}
+
+} // namespace
+
+void addInfoCommand(CLI::App& app, int& exitCode) {
+    CLI::App* command = app.add_subcommand(
+        "info", "Count what a map holds (faces, triangles, lights, clusters) and say what it requires of a renderer");
+    const auto arguments = std::make_shared<InfoArguments>();
+    command->add_option("--map", arguments->map, "Map name, such as oa_dm1")->required();
+    command->add_option("--basepath", arguments->game.basePath, "Folder that holds the game folder");
+    command->add_option("--game", arguments->game.game, "Game folder (default baseoa)");
+    command->add_flag("--json", arguments->json, "One JSON object instead of text");
+    command->callback([arguments, &exitCode] {
+        runInfo(*arguments);
+        exitCode = 0;
+    });
+}
+
+} // namespace q3rt

@@ -1,0 +1,56 @@
+#include "host/file_bytes.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <unistd.h>
+
+#include "base/error.hpp"
+
+namespace q3rt {
+
+namespace {
+
+struct Closer {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, Closer>;
+
+[[noreturn]] void failWith(const char* what, const std::filesystem::path& path, int error) {
+    throw ContentError(formatText("%s %s: %s", what, path.c_str(), std::strerror(error)));
+}
+
+} // namespace
+
+std::vector<std::byte> readFileBytes(const std::filesystem::path& path) {
+    if (std::filesystem::is_directory(path)) failWith("can't read", path, EISDIR);
+    const File file(std::fopen(path.c_str(), "rb"));
+    if (!file) failWith("can't read", path, errno);
+    std::vector<std::byte> bytes;
+    for (size_t count = 1; count > 0;) {
+        const size_t before = bytes.size();
+        bytes.resize(before + (size_t(1) << 20));
+        count = std::fread(bytes.data() + before, 1, bytes.size() - before, file.get());
+        bytes.resize(before + count);
+    }
+    if (std::ferror(file.get()) != 0) failWith("can't read", path, errno);
+    return bytes;
+}
+
+void writeFileBytes(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+    std::error_code ignored; // the open below says what is wrong
+    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
+    const std::filesystem::path temporary = path.string() + formatText(".%d.tmp", static_cast<int>(getpid()));
+    File file(std::fopen(temporary.c_str(), "wb"));
+    if (!file) failWith("can't write", path, errno);
+    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+    const bool closed = std::fclose(file.release()) == 0;
+    if (!written || !closed || std::rename(temporary.c_str(), path.c_str()) != 0) {
+        const int error = errno;
+        std::remove(temporary.c_str());
+        failWith("can't write", path, error);
+    }
+}
+
+} // namespace q3rt
