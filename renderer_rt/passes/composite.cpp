@@ -1,0 +1,16 @@
+#include "renderer_rt/passes/trace_input.hpp"
+
+namespace q3rt {
+
+void addComposite(FrameGraph& graph, ViewResources& resources, const ViewWork& work) {
+    graph.addPass(
+        "composite",
+        [&](PassBuilder& pass) {
+            pass.read(resources.pixels, access::kComputeRead);
+            pass.read(resources.irradiance, access::kComputeRead);
+            resources.radiance = pass.write(resources.radiance, access::kComputeWrite);
+        },
+        [work](PassContext& pass) { work.pipelines.dispatchComposite(pass.commands(), makeStageInput(pass, work)); });
+}
+
+} // namespace q3rt

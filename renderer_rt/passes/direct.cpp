@@ -1,0 +1,18 @@
+#include "renderer_rt/passes/trace_input.hpp"
+
+namespace q3rt {
+
+void addDirect(FrameGraph& graph, ViewResources& resources, const ViewWork& work) {
+    graph.addPass(
+        "direct",
+        [&](PassBuilder& pass) {
+            pass.read(resources.structures, work.pipelines.structureRead());
+            pass.read(resources.pixels, work.pipelines.bufferRead());
+            resources.irradiance = pass.write(resources.irradiance, work.pipelines.bufferWrite());
+        },
+        [work](PassContext& pass) {
+            work.pipelines.dispatch(pass.commands(), TraceStage::Direct, makeStageInput(pass, work));
+        });
+}
+
+} // namespace q3rt

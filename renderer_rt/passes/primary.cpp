@@ -1,0 +1,17 @@
+#include "renderer_rt/passes/trace_input.hpp"
+
+namespace q3rt {
+
+void addPrimary(FrameGraph& graph, ViewResources& resources, const ViewWork& work) {
+    graph.addPass(
+        "primary",
+        [&](PassBuilder& pass) {
+            pass.read(resources.structures, work.pipelines.structureRead());
+            resources.pixels = pass.write(resources.pixels, work.pipelines.bufferWrite());
+        },
+        [work](PassContext& pass) {
+            work.pipelines.dispatch(pass.commands(), TraceStage::Primary, makeStageInput(pass, work));
+        });
+}
+
+} // namespace q3rt

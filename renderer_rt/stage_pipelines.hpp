@@ -1,0 +1,62 @@
+#pragma once
+// The pipelines of the traced frame for one back end. Everything above asks for a stage by name and never sees which
+// back end runs it.
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "frame/access.hpp"
+#include "gpu/compute_pipeline.hpp"
+#include "gpu/descriptors.hpp"
+#include "gpu/graphics_pipeline.hpp"
+#include "gpu/ray_tracing_pipeline.hpp"
+#include "shaders/shared/rt_scene.h"
+
+namespace q3rt {
+
+struct Capabilities;
+
+enum class Backend { Pipeline, Query };
+const char* nameOf(Backend backend);
+/// The back end for rt_backend on this device. Throws UsageError or DeviceError with the remedy if there is none.
+Backend chooseBackend(std::string_view wanted, const Capabilities& capabilities);
+
+/// Stages that trace rays.
+enum class TraceStage { Primary, Direct };
+inline constexpr size_t kTraceStageCount = 2;
+
+/// What a dispatch binds.
+struct StageInput {
+    VkDescriptorSet textures = VK_NULL_HANDLE, structures = VK_NULL_HANDLE;
+    RtPush push{};
+    VkExtent2D extent{};
+};
+
+class StagePipelines {
+  public:
+    StagePipelines(Device& device, Backend backend, VkDescriptorSetLayout textures);
+    void dispatch(VkCommandBuffer commands, TraceStage stage, const StageInput& input) const;
+    void dispatchComposite(VkCommandBuffer commands, const StageInput& input) const;
+    /// Runs every stage once, so that the driver compiles it now.
+    void warm(VkCommandBuffer commands, const StageInput& input) const;
+    const GraphicsPipeline& output() const { return m_output; }
+    const DescriptorLayout& structureLayout() const { return m_structureLayout; }
+    Backend backend() const { return m_backend; }
+    /// How the tracing stages touch buffers and structures.
+    const Access& bufferRead() const;
+    const Access& bufferWrite() const;
+    const Access& structureRead() const;
+
+  private:
+    void createTraceStage(Device& device, TraceStage stage, const PipelineInterface& interface);
+
+    Backend m_backend;
+    DescriptorLayout m_structureLayout;
+    std::array<RayTracingPipeline, kTraceStageCount> m_tracePipelines;
+    std::array<ComputePipeline, kTraceStageCount> m_computeStages;
+    ComputePipeline m_composite;
+    GraphicsPipeline m_output;
+};
+
+} // namespace q3rt

@@ -1,0 +1,55 @@
+#include "renderer_rt/surface_class.hpp"
+
+#include <algorithm>
+
+#include "shaders/shared/rt_scene.h"
+
+namespace q3rt {
+
+namespace {
+
+constexpr float kSortOpaque = 3; ///< of the shader language's sort keyword
+
+} // namespace
+
+std::optional<SurfaceClass> classifySurface(const Material& material) {
+    if (material.isSky) return SurfaceClass::Sky;
+    if (material.stages.empty() && material.isFog) return SurfaceClass::Layer;
+    if (material.stages.empty()) return std::nullopt;
+    // A decal lies in the plane of another surface: the drawing order decides there, as among layers.
+    if (material.polygonOffset) return SurfaceClass::Layer;
+    const auto covers = [](const Stage& s) { return !s.blended && s.depthFunc != DepthFunc::Equal; };
+    const auto& stages = material.stages;
+    const bool covered = std::any_of(stages.begin(), stages.end(),
+                                     [&](const Stage& s) { return covers(s) && s.alphaTest == AlphaTest::None; });
+    if (covered && material.cull == CullMode::Front) return SurfaceClass::Solid;
+    if (covered && material.cull == CullMode::None) return SurfaceClass::SolidTwoSided;
+    if (covered || std::any_of(stages.begin(), stages.end(), covers)) return SurfaceClass::Tested;
+    return SurfaceClass::Layer;
+}
+
+uint32_t surfaceFlags(const Material& material, SurfaceClass surfaceClass) {
+    uint32_t flags = 0;
+    const bool tested = std::any_of(material.stages.begin(), material.stages.end(),
+                                    [](const Stage& s) { return s.alphaTest != AlphaTest::None; });
+    if (tested) flags |= kSurfaceTested;
+    if (material.cull == CullMode::Front) flags |= kSurfaceCullBack;
+    if (material.cull == CullMode::Back) flags |= kSurfaceCullFront;
+    if (surfaceClass == SurfaceClass::Sky) flags |= kSurfaceSky;
+    // The engine's fog pass: opaque materials, and the faces of fog volumes themselves.
+    if (material.sort <= kSortOpaque || material.isFog) flags |= kSurfaceFogged;
+    return flags;
+}
+
+uint8_t instanceMask(SurfaceClass surfaceClass, const Visibility& visibility) {
+    if (surfaceClass == SurfaceClass::Sky) return kMaskSky;
+    const bool layer = surfaceClass == SurfaceClass::Layer;
+    uint32_t mask = 0;
+    if (visibility.eye && visibility.near) mask |= layer ? kMaskNearLayer : kMaskNearSolid;
+    if (visibility.eye && !visibility.near) mask |= layer ? kMaskLayer : kMaskSolid;
+    if (visibility.mirrors) mask |= layer ? kMaskLayerMirror : kMaskSolidMirror;
+    if (visibility.shadow && !layer) mask |= kMaskShadow;
+    return static_cast<uint8_t>(mask);
+}
+
+} // namespace q3rt

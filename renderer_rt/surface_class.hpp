@@ -1,0 +1,39 @@
+#pragma once
+// Which of the ray tracer's structures a surface goes to, decided from its compiled material alone.
+
+#include <cstdint>
+#include <optional>
+
+#include "scene/material.hpp"
+
+namespace q3rt {
+
+enum class SurfaceClass : uint8_t {
+    Solid,         ///< nothing behind it shows; back faces culled by the tracer
+    SolidTwoSided, ///< the same, shown from both sides
+    Tested,        ///< the accept function decides at each point: alpha test, back-sided
+    Layer,         ///< blended or a decal: composed with what is behind it
+    Sky
+};
+inline constexpr size_t kSurfaceClassCount = 5;
+
+/// nullopt: it shows nothing (no stages, no fog).
+std::optional<SurfaceClass> classifySurface(const Material& material);
+
+/// kSurface* bits of a material for the surface table.
+uint32_t surfaceFlags(const Material& material, SurfaceClass surfaceClass);
+
+/// Must any-hit code run on hits of this class?
+inline bool isOpaqueClass(SurfaceClass c) {
+    return c == SurfaceClass::Solid || c == SurfaceClass::SolidTwoSided || c == SurfaceClass::Sky;
+}
+
+/// Who may see a surface: the eye, mirrors, light.
+struct Visibility {
+    bool eye = true, mirrors = true, shadow = true;
+    bool near = false; ///< depth hack
+};
+/// Instance mask bits (kMask*).
+uint8_t instanceMask(SurfaceClass surfaceClass, const Visibility& visibility);
+
+} // namespace q3rt

@@ -1,0 +1,110 @@
+// What the ray tracer adds around the frame: warming at load, the statistics line, radiance to a file.
+
+#include <algorithm>
+#include <cstring>
+
+#include "base/error.hpp"
+#include "base/log.hpp"
+#include "formats/image.hpp"
+#include "gpu/device.hpp"
+#include "gpu/readback.hpp"
+#include "renderer_rt/trace_renderer.hpp"
+
+namespace q3rt {
+
+namespace {
+
+constexpr int kStatsIntervalMs = 1000;
+constexpr VkExtent2D kWarmExtent{8, 8}; ///< pixels: enough to make the driver compile
+
+/// The engine's commands are plain functions: the one renderer of this module.
+TraceRenderer* currentRenderer = nullptr;
+
+} // namespace
+
+void TraceRenderer::addScreenshotCommand() {
+    if (m_commandAdded) return;
+    currentRenderer = this;
+    engine().addCommand("screenshotHDR", &TraceRenderer::onScreenshotHdr);
+    m_commandAdded = true;
+}
+
+void TraceRenderer::removeScreenshotCommand() {
+    if (!m_commandAdded) return;
+    engine().removeCommand("screenshotHDR");
+    currentRenderer = nullptr;
+    m_commandAdded = false;
+}
+
+void TraceRenderer::onScreenshotHdr() {
+    if (!currentRenderer) return;
+    const std::vector<std::string> arguments = currentRenderer->engine().commandArguments();
+    if (arguments.size() < 2) {
+        logLine(LogLevel::Warning,
+                "screenshotHDR: give a file name; radiance of the next frame goes to screenshots/NAME.pfm");
+        return;
+    }
+    currentRenderer->m_radianceFile = "screenshots/" + arguments[1] + ".pfm";
+}
+
+void TraceRenderer::onGpuFrameEnd() {
+    if (!m_radianceFile.empty() && m_lastBuffers && !m_views.empty()) {
+        writeRadiance(m_radianceFile);
+        m_radianceFile.clear();
+    }
+    if (m_settings.rt_printPerfStats) printStats();
+}
+
+void TraceRenderer::writeRadiance(const std::string& file) {
+    const VkExtent2D extent = m_lastBuffers->extent;
+    const std::vector<std::byte> bytes = readBuffer(context().device(), m_lastBuffers->radiance);
+    std::vector<float> rgb;
+    rgb.reserve(size_t{3} * extent.width * extent.height);
+    for (size_t i = 0; i < size_t{extent.width} * extent.height; ++i) {
+        float texel[4];
+        std::memcpy(texel, bytes.data() + i * sizeof(texel), sizeof(texel));
+        rgb.insert(rgb.end(), texel, texel + 3);
+    }
+    engine().writeFile(file, encodePfm(static_cast<int>(extent.width), static_cast<int>(extent.height), rgb));
+    logLine(LogLevel::Info, "wrote %s", file.c_str());
+}
+
+void TraceRenderer::printStats() {
+    const int now = engine().milliseconds();
+    if (now - m_lastPrintMs < kStatsIntervalMs) return;
+    m_lastPrintMs = now;
+    std::string line = formatText("rt: %s, %u instances, %u moving triangles, %u samples;", backendName(),
+                                  m_instanceCount, m_movingTriangleCount, m_sampleNumber + 1);
+    for (const TimerRow& row : context().ring().timers().results())
+        line += formatText(" %s %.2f ms", row.name.c_str(), row.ms);
+    engine().print(LogLevel::Info, line);
+}
+
+/// lavapipe compiles a pipeline at its first dispatch: one frame of a few pixels moves that to the load.
+void TraceRenderer::warmPipelines() {
+    m_scene->beginFrame();
+    FrameCommands frame;
+    SceneView scene;
+    scene.width = static_cast<int>(kWarmExtent.width);
+    scene.height = static_cast<int>(kWarmExtent.height);
+    scene.view.origin = world()->bounds.empty() ? vec3(0.0f) : (world()->bounds.mins + world()->bounds.maxs) * 0.5f;
+    m_views.clear();
+    const TracedView& view = prepareView(frame, scene, kWarmExtent);
+    DescriptorArena arena(context().device());
+    context().device().submitAndWait([&](VkCommandBuffer commands) {
+        m_scene->recordBuilds(commands, view);
+        const StageInput input{.textures = context().textures().set(),
+                               .structures = arena.make(m_pipelines->structureLayout(),
+                                                        {bindAccelerationStructure(0, view.top->handle())}),
+                               .push = {view.frameSlice.address},
+                               .extent = kWarmExtent};
+        m_pipelines->warm(commands, input);
+    });
+    m_views.clear();
+    m_buffers.clear();
+    m_lastBuffers = nullptr;
+    m_lastViewKey.clear();
+    m_frameNumber = 0;
+}
+
+} // namespace q3rt

@@ -1,0 +1,201 @@
+#include "renderer_rt/trace_renderer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "base/error.hpp"
+#include "base/log.hpp"
+#include "gpu/device.hpp"
+
+namespace q3rt {
+
+namespace {
+
+constexpr VkBufferUsageFlags kViewUsage =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+
+Buffer makeViewBuffer(Device& device, VkExtent2D extent, size_t pixelBytes, const char* name) {
+    return Buffer(device,
+                  {.size = VkDeviceSize{extent.width} * extent.height * pixelBytes, .usage = kViewUsage, .name = name});
+}
+
+/// Radiance that the filmic curve shows as full white.
+constexpr float kFilmicWhite = 4.0f;
+
+float tangentOfHalf(float degrees) {
+    return static_cast<float>(std::tan(static_cast<double>(degrees) * 3.14159265358979323846 / 360.0));
+}
+
+template <typename T>
+void appendBits(std::vector<uint32_t>& key, const T& value) {
+    static_assert(sizeof(T) % sizeof(uint32_t) == 0 && std::is_trivially_copyable_v<T>);
+    const size_t at = key.size();
+    key.resize(at + sizeof(T) / sizeof(uint32_t));
+    std::memcpy(&key[at], &value, sizeof(T));
+}
+
+} // namespace
+
+ViewBuffers::ViewBuffers(Device& device, VkExtent2D viewExtent)
+    : extent(viewExtent)
+    , pixels(makeViewBuffer(device, viewExtent, sizeof(RtPixel), "pixels"))
+    , irradiance(makeViewBuffer(device, viewExtent, sizeof(vec4), "irradiance"))
+    , radiance(makeViewBuffer(device, viewExtent, sizeof(vec4), "radiance")) {}
+
+TraceRenderer::TraceRenderer(EngineServices& engine)
+    : GpuRenderer(engine) {
+    bindTraceSettings(settingsBinding(), m_settings);
+}
+
+TraceRenderer::~TraceRenderer() {
+    removeScreenshotCommand();
+    if (hasDevice()) context().device().waitIdle();
+}
+
+const char* TraceRenderer::backendName() const {
+    return m_pipelines ? nameOf(m_pipelines->backend()) : m_settings.rt_backend.c_str();
+}
+
+void TraceRenderer::onDeviceCreated() {
+    Device& device = context().device();
+    const Backend backend = chooseBackend(m_settings.rt_backend, device.capabilities());
+    m_pipelines = std::make_unique<StagePipelines>(device, backend, context().textures().layout());
+    m_scene = std::make_unique<TracedScene>(context());
+}
+
+void TraceRenderer::onGpuWorldLoaded() {
+    m_scene->setContent(materials(), textures());
+    m_scene->loadWorld(*world());
+    m_frameNumber = 0;
+    m_lastViewKey.clear();
+    const StaticGeometry& statics = *m_scene->statics();
+    logLine(LogLevel::Info, "%u world triangles in %zu structures (%.1f MiB), %zu triangle lights, %zu others",
+            statics.triangleCount(), statics.parts().size(), static_cast<double>(statics.bytes()) / (1 << 20),
+            m_scene->lights()->triangleCount(), m_scene->lights()->others().size());
+}
+
+void TraceRenderer::onGpuReady() {
+    addScreenshotCommand();
+    if (m_scene->hasWorld()) warmPipelines();
+}
+
+void TraceRenderer::onGpuContentDropped() {
+    removeScreenshotCommand();
+    m_views.clear();
+    m_buffers.clear();
+    m_lastBuffers = nullptr;
+    if (m_scene) m_scene->dropContent();
+}
+
+void TraceRenderer::onGpuFrameBegin(const FrameCommands&) {
+    m_views.clear();
+    m_scene->beginFrame();
+}
+
+std::optional<VkRect2D> TraceRenderer::visibleArea(const SceneView& scene) {
+    // A view that reaches beyond the target is traced where it shows only; its rays are those of the whole view.
+    const VkExtent2D target = context().extent();
+    const int left = std::clamp(scene.x, 0, static_cast<int>(target.width));
+    const int top = std::clamp(scene.y, 0, static_cast<int>(target.height));
+    const int right = std::clamp(scene.x + scene.width, left, static_cast<int>(target.width));
+    const int bottom = std::clamp(scene.y + scene.height, top, static_cast<int>(target.height));
+    if (right == left || bottom == top) return std::nullopt;
+    return VkRect2D{{left, top}, {static_cast<uint32_t>(right - left), static_cast<uint32_t>(bottom - top)}};
+}
+
+void TraceRenderer::describeView(const SceneView& scene, VkExtent2D extent, RtFrame& out) const {
+    out.eye = scene.view.origin;
+    // Rays through the visible part of the view: its centre is off the view's axis where the view is cut.
+    const float tanX = tangentOfHalf(scene.fovXDegrees), tanY = tangentOfHalf(scene.fovYDegrees);
+    const vec2 whole(static_cast<float>(scene.width), static_cast<float>(scene.height));
+    const vec2 part(static_cast<float>(extent.width), static_cast<float>(extent.height));
+    const vec2 corner(static_cast<float>(std::max(0, -scene.x)), static_cast<float>(std::max(0, -scene.y)));
+    const vec2 center = (corner * 2.0f + part) / whole - 1.0f;
+    out.forward = scene.view.axis[0] - scene.view.axis[1] * (tanX * center.x) - scene.view.axis[2] * (tanY * center.y);
+    out.left = scene.view.axis[1] * (tanX * part.x / whole.x);
+    out.up = scene.view.axis[2] * (tanY * part.y / whole.y);
+    out.forwardUnit = scene.view.axis[0];
+    const Bounds& bounds = m_scene->world()->bounds;
+    // From the eye to the farthest corner, wherever the eye is.
+    const vec3 reach = glm::max(glm::abs(bounds.mins - out.eye), glm::abs(bounds.maxs - out.eye));
+    out.farQu = 2.0f * glm::length(reach);
+    out.size = {extent.width, extent.height};
+}
+
+void TraceRenderer::describeSettings(RtFrame& out) const {
+    out.seed = static_cast<uint32_t>(m_settings.rt_seed);
+    out.lightsPerPixel = static_cast<uint32_t>(m_settings.rt_numRandomDL);
+    out.candidatesPerChoice = static_cast<uint32_t>(m_settings.rt_lightCandidates);
+    out.ambient = m_settings.rt_ambient;
+    out.cullLights = static_cast<uint32_t>(m_settings.rt_cullLights);
+    if (m_settings.rt_illumination) out.flags |= kFrameIllumination;
+    if (m_settings.rt_softshadows) out.flags |= kFrameSoftShadows;
+    if (m_settings.rt_antialiasing) out.flags |= kFrameAntialiasing;
+}
+
+uint32_t TraceRenderer::countSample(const FrameCommands& frame, const SceneView& scene) {
+    std::vector<uint32_t> key;
+    for (const vec3& v : {scene.view.origin, scene.view.axis[0], scene.view.axis[1], scene.view.axis[2]})
+        appendBits(key, v);
+    appendBits(key, std::array{scene.fovXDegrees, scene.fovYDegrees});
+    appendBits(key, std::array{scene.x, scene.y, scene.width, scene.height, scene.timeMs});
+    appendBits(key, std::array{scene.entityCount, scene.polyCount, scene.lightCount});
+    for (uint32_t i = 0; i < scene.entityCount; ++i)
+        appendBits(key, frame.entities[scene.firstEntity + i].orientation.origin);
+    appendBits(key, std::array{m_settings.rt_illumination, m_settings.rt_cullLights, m_settings.rt_numRandomDL,
+                               m_settings.rt_softshadows, m_settings.rt_antialiasing, m_settings.rt_seed});
+    appendBits(key, m_settings.rt_ambient);
+    const bool same = m_settings.rt_accumulate != 0 && key == m_lastViewKey;
+    m_lastViewKey = std::move(key);
+    m_sampleNumber = same ? m_sampleNumber + 1 : 0;
+    return m_sampleNumber;
+}
+
+const TracedView& TraceRenderer::prepareView(const FrameCommands& frame, const SceneView& scene, VkExtent2D extent) {
+    buildViewGeometry(frame, scene, scene.view, world(), models(), materials(), viewGeometrySettings(), m_geometry);
+    const std::span<const SceneLight> lights(frame.lights.data() + scene.firstLight, scene.lightCount);
+    m_views.push_back(m_scene->prepare(m_geometry, lights));
+    TracedView& view = m_views.back();
+    describeView(scene, extent, view.frame);
+    describeSettings(view.frame);
+    view.frame.sampleNumber = countSample(frame, scene);
+    view.frame.frame = m_frameNumber++;
+    ViewBuffers& buffers = buffersOf(extent);
+    view.frame.pixels = buffers.pixels.address();
+    view.frame.irradiance = buffers.irradiance.address();
+    view.frame.radiance = buffers.radiance.address();
+    m_scene->finish(view);
+    m_movingTriangleCount = view.movingTriangleCount;
+    m_instanceCount = view.instanceCount;
+    return view;
+}
+
+ViewBuffers& TraceRenderer::buffersOf(VkExtent2D extent) {
+    for (ViewBuffers& buffers : m_buffers)
+        if (buffers.extent.width == extent.width && buffers.extent.height == extent.height) {
+            m_lastBuffers = &buffers;
+            return buffers;
+        }
+    m_lastBuffers = &m_buffers.emplace_back(context().device(), extent);
+    m_lastViewKey.clear();
+    return *m_lastBuffers;
+}
+
+RtOutput TraceRenderer::describeOutput(const ViewBuffers& buffers, const VkRect2D& area) const {
+    RtOutput output{};
+    output.radiance = buffers.radiance.address();
+    output.corner = {static_cast<uint32_t>(area.offset.x), static_cast<uint32_t>(area.offset.y)};
+    output.width = area.extent.width;
+    output.curve = m_settings.rt_tonemap != 0 ? kCurveFilmic : kCurveClamp;
+    output.exposure = m_settings.rt_exposure;
+    output.white = kFilmicWhite;
+    return output;
+}
+
+std::string TraceRenderer::extraStats() const {
+    return formatText(",\"instances\":%u,\"moving_triangles\":%u,\"lights\":%zu", m_instanceCount,
+                      m_movingTriangleCount, m_scene && m_scene->hasWorld() ? m_scene->lights()->triangleCount() : 0);
+}
+
+} // namespace q3rt

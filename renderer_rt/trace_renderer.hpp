@@ -1,0 +1,69 @@
+#pragma once
+// The ray tracer as a renderer: world views are traced; 2D, HUD scenes and the window are the rasteriser's.
+
+#include <list>
+
+#include "renderer_rt/passes/passes.hpp"
+#include "renderer_rt/trace_settings.hpp"
+#include "renderer_vk/gpu_renderer.hpp"
+
+namespace q3rt {
+
+/// Buffers of one size of view: what the stages hand on, and the running mean.
+struct ViewBuffers {
+    VkExtent2D extent{};
+    Buffer pixels, irradiance, radiance;
+    ViewBuffers(Device& device, VkExtent2D viewExtent);
+};
+
+class TraceRenderer final : public GpuRenderer {
+  public:
+    explicit TraceRenderer(EngineServices& engine);
+    ~TraceRenderer() override;
+
+  private:
+    void drawWorldView(FrameGraph& graph, FrameTargets& targets, const FrameCommands& frame,
+                       const SceneView& scene) override;
+    const char* backendName() const override;
+    const char* rendererName() const override { return "q3rt renderer_rt"; }
+    void onDeviceCreated() override;
+    void onGpuWorldLoaded() override;
+    void onGpuReady() override;
+    void onGpuContentDropped() override;
+    void onGpuFrameBegin(const FrameCommands& frame) override;
+    void onGpuFrameEnd() override;
+    std::string extraStats() const override;
+
+    const TracedView& prepareView(const FrameCommands& frame, const SceneView& scene, VkExtent2D extent);
+    void describeView(const SceneView& scene, VkExtent2D extent, RtFrame& out) const;
+    void describeSettings(RtFrame& out) const;
+    /// Number of this sample in the mean of an unchanged view; 0 starts a new mean.
+    uint32_t countSample(const FrameCommands& frame, const SceneView& scene);
+    ViewBuffers& buffersOf(VkExtent2D extent);
+    /// The part of the view's rectangle that lies on the target.
+    std::optional<VkRect2D> visibleArea(const SceneView& scene);
+    RtOutput describeOutput(const ViewBuffers& buffers, const VkRect2D& area) const;
+    void addScreenshotCommand();
+    void removeScreenshotCommand();
+    void warmPipelines();
+    void printStats();
+    void writeRadiance(const std::string& file);
+    static void onScreenshotHdr();
+
+    TraceSettings m_settings;
+    std::unique_ptr<StagePipelines> m_pipelines;
+    std::unique_ptr<TracedScene> m_scene;
+    std::list<ViewBuffers> m_buffers; ///< addresses stay
+    std::list<TracedView> m_views;    ///< of this frame; passes refer to them
+    ViewGeometry m_geometry;
+    ViewBuffers* m_lastBuffers = nullptr;
+    bool m_commandAdded = false;
+    uint32_t m_frameNumber = 0; ///< of traced views since the map was loaded
+    uint32_t m_sampleNumber = 0;
+    std::vector<uint32_t> m_lastViewKey; ///< of the view that the mean belongs to
+    std::string m_radianceFile;          ///< asked for by screenshotHDR
+    int m_lastPrintMs = 0;
+    uint32_t m_movingTriangleCount = 0, m_instanceCount = 0;
+};
+
+} // namespace q3rt

@@ -1,0 +1,159 @@
+#include "renderer_rt/traced_scene.hpp"
+
+#include <algorithm>
+
+namespace q3rt {
+
+namespace {
+
+constexpr VkBufferUsageFlags kStreamUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                            VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
+                                            VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
+constexpr VkDeviceSize kStreamBytes = VkDeviceSize{4} << 20; ///< at first; it grows
+
+} // namespace
+
+TracedScene::TracedScene(GpuContext& context)
+    : m_context(context)
+    , m_structures(context.device(), context.ring().framesInFlight())
+    , m_stream(context.device(),
+               {.size = kStreamBytes, .usage = kStreamUsage, .domain = MemoryDomain::Upload, .name = "traced view"},
+               context.ring().framesInFlight()) {}
+
+void TracedScene::setContent(const MaterialLibrary& materials, const TextureLibrary& textures) {
+    dropContent();
+    m_stages = std::make_unique<StageTable>(materials, textures, 1.0f);
+    m_builder = std::make_unique<ViewTableBuilder>(materials, *m_stages);
+}
+
+void TracedScene::loadWorld(const World& world) {
+    m_world = &world;
+    Device& device = m_context.device();
+    m_statics = std::make_unique<StaticGeometry>(device, m_context.uploader(), world, m_builder->materials());
+    m_lights = std::make_unique<WorldLights>(device, m_context.uploader(), world, m_builder->materials());
+}
+
+void TracedScene::dropContent() {
+    m_builder.reset();
+    m_stages.reset();
+    m_statics.reset();
+    m_lights.reset();
+    m_world = nullptr;
+    m_tables.clear();
+}
+
+void TracedScene::beginFrame() {
+    const uint32_t slot = m_context.ring().slot();
+    m_structures.beginFrame(slot);
+    m_stream.beginFrame(slot);
+    if (m_stages) m_stages->beginFrame();
+}
+
+template <typename T>
+VkDeviceAddress TracedScene::send(const std::vector<T>& items) {
+    return m_stream.append(std::span<const T>(items)).address;
+}
+
+void TracedScene::sendFogs(RtFrame& frame) {
+    std::vector<RtFog> fogs;
+    for (const FogVolume& fog : m_world ? m_world->fogs : std::vector<FogVolume>{})
+        fogs.push_back({.color = fog.color,
+                        .depthForOpaque = fog.depthForOpaque,
+                        .normal = fog.surface.normal,
+                        .distance = fog.surface.distance,
+                        .hasSurface = fog.hasSurface ? 1u : 0u});
+    frame.fogs = send(fogs);
+}
+
+void TracedScene::sendLights(std::span<const SceneLight> lights, RtFrame& frame) {
+    std::vector<RtLight> others;
+    if (m_lights) others = m_lights->others();
+    for (const SceneLight& light : lights)
+        others.push_back(makeDynamicLight(light.origin, light.radius, light.color));
+    frame.lights = send(others);
+    frame.lightCount = static_cast<uint32_t>(others.size());
+}
+
+void TracedScene::resolveDynamic(const ViewGeometry& geometry, TracedView& view) {
+    const VkDeviceAddress vertices = send(geometry.vertices);
+    const VkDeviceAddress indices = send(m_tables.indices);
+    const VkDeviceAddress surfaceOfTriangle = send(m_tables.surfaceOfTriangle);
+    m_dynamicStructures.clear();
+    for (const DynamicPart& part : m_tables.parts) {
+        const TriangleGeometry triangles{.vertices = vertices + part.firstVertex * sizeof(Vertex),
+                                         .vertexStride = sizeof(Vertex),
+                                         .vertexCount = part.vertexCount,
+                                         .indices = indices + part.firstIndex * sizeof(uint32_t),
+                                         .triangleCount = part.triangleCount,
+                                         .opaque = isOpaqueClass(part.surfaceClass)};
+        AccelerationStructure& structure = m_structures.takeBottom(triangles);
+        m_dynamicStructures.push_back(&structure);
+        view.builds.push_back({&structure, triangles});
+        view.movingTriangleCount += part.triangleCount;
+    }
+    for (size_t i = 0; i < m_tables.instances.size(); ++i) {
+        if (m_tables.sources[i].dynamicPart < 0) continue;
+        m_tables.instances[i].vertices += vertices;
+        m_tables.instances[i].indices += indices;
+        m_tables.instances[i].surfaceOfTriangle += surfaceOfTriangle;
+    }
+}
+
+void TracedScene::makeInstances(const ViewGeometry& geometry, TracedView& view) {
+    std::vector<VkAccelerationStructureInstanceKHR> instances;
+    for (size_t i = 0; i < m_tables.sources.size(); ++i) {
+        const ViewTables::Source& source = m_tables.sources[i];
+        const AccelerationStructure& bottom = source.staticPart >= 0
+                                                  ? m_statics->parts()[static_cast<size_t>(source.staticPart)].structure
+                                                  : *m_dynamicStructures[static_cast<size_t>(source.dynamicPart)];
+        const mat4& transform = geometry.entities[source.entity].worldFromModel;
+        float rows[3][4];
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column < 4; ++column)
+                rows[row][column] = transform[column][row];
+        // Only the solid class asks the tracer to drop back faces: the other classes decide for themselves.
+        const VkGeometryInstanceFlagsKHR flags =
+            source.surfaceClass == SurfaceClass::Solid ? 0 : VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
+        instances.push_back(makeInstance(bottom, rows, static_cast<uint32_t>(i), source.mask, 0, flags));
+    }
+    view.instanceCount = static_cast<uint32_t>(instances.size());
+    view.topInstances = m_stream.append(std::span<const VkAccelerationStructureInstanceKHR>(instances), 16);
+    view.top = &m_structures.takeTop(view.instanceCount);
+}
+
+TracedView TracedScene::prepare(const ViewGeometry& geometry, std::span<const SceneLight> lights) {
+    TracedView view;
+    m_builder->build(m_world, m_statics.get(), geometry, m_tables);
+    resolveDynamic(geometry, view);
+    makeInstances(geometry, view);
+    RtFrame& frame = view.frame;
+    frame.instances = send(m_tables.instances);
+    frame.surfaces = send(m_tables.surfaces);
+    frame.entities = send(m_tables.entities);
+    frame.skies = send(m_tables.skies);
+    frame.skyCount = static_cast<uint32_t>(m_tables.skies.size());
+    frame.stages = send(m_stages->states());
+    sendFogs(frame);
+    sendLights(lights, frame);
+    if (m_lights) m_lights->describe(frame);
+    if (m_tables.hasLayers) frame.flags |= kFrameLayers;
+    if (m_tables.hasNear) frame.flags |= kFrameNearEntities;
+    if (m_tables.skies.size() > 1) frame.flags |= kFrameSkySurfaces;
+    frame.layerOrderCount = m_tables.layerOrderCount;
+    view.frameSlice = m_stream.reserve(sizeof(RtFrame));
+    return view;
+}
+
+void TracedScene::finish(const TracedView& view) { std::memcpy(view.frameSlice.mapped, &view.frame, sizeof(RtFrame)); }
+
+void TracedScene::recordBuilds(VkCommandBuffer commands, const TracedView& view) {
+    AccelerationScratch& scratch = m_structures.scratch();
+    recordBuildInputBarrier(commands);
+    for (const TracedView::Build& build : view.builds)
+        build.structure->recordBuild(commands, scratch, {&build.geometry, 1});
+    recordBuildBarrier(commands);
+    view.top->recordBuildTop(commands, scratch, view.topInstances.address, view.instanceCount);
+    recordBuildBarrier(commands);
+}
+
+} // namespace q3rt

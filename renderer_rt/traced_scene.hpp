@@ -1,0 +1,69 @@
+#pragma once
+// The ray tracer's scene on the GPU: static structures of the map, structures and tables of each view.
+
+#include <memory>
+
+#include "gpu/growing_buffer.hpp"
+#include "renderer_rt/frame_structures.hpp"
+#include "renderer_rt/traced_view.hpp"
+#include "renderer_rt/world_lights.hpp"
+#include "renderer_vk/gpu_context.hpp"
+
+namespace q3rt {
+
+/// A view ready to be traced. Everything in it lives as long as the frame.
+struct TracedView {
+    RtFrame frame{}; ///< completed by the caller, then given to finish()
+    BufferSlice frameSlice;
+    AccelerationStructure* top = nullptr;
+    BufferSlice topInstances;
+    uint32_t instanceCount = 0;
+    struct Build {
+        AccelerationStructure* structure;
+        TriangleGeometry geometry;
+    };
+    std::vector<Build> builds;
+    uint32_t movingTriangleCount = 0;
+};
+
+class TracedScene {
+  public:
+    explicit TracedScene(GpuContext& context);
+    void setContent(const MaterialLibrary& materials, const TextureLibrary& textures);
+    void loadWorld(const World& world);
+    void dropContent();
+    bool hasWorld() const { return m_statics != nullptr; }
+
+    void beginFrame();
+    /// Tables of one view; nothing is recorded yet. `lights` are the view's dynamic ones.
+    TracedView prepare(const ViewGeometry& geometry, std::span<const SceneLight> lights);
+    /// Writes `view.frame` where the shaders find it.
+    void finish(const TracedView& view);
+    /// Bottom levels, then the top level, with the barriers between and after them.
+    void recordBuilds(VkCommandBuffer commands, const TracedView& view);
+
+    const StaticGeometry* statics() const { return m_statics.get(); }
+    const WorldLights* lights() const { return m_lights.get(); }
+    const World* world() const { return m_world; }
+
+  private:
+    template <typename T>
+    VkDeviceAddress send(const std::vector<T>& items);
+    void resolveDynamic(const ViewGeometry& geometry, TracedView& view);
+    void makeInstances(const ViewGeometry& geometry, TracedView& view);
+    void sendFogs(RtFrame& frame);
+    void sendLights(std::span<const SceneLight> lights, RtFrame& frame);
+
+    GpuContext& m_context;
+    const World* m_world = nullptr;
+    std::unique_ptr<StageTable> m_stages;
+    std::unique_ptr<ViewTableBuilder> m_builder;
+    std::unique_ptr<StaticGeometry> m_statics;
+    std::unique_ptr<WorldLights> m_lights;
+    FrameStructures m_structures;
+    GrowingBuffer m_stream;
+    ViewTables m_tables;
+    std::vector<AccelerationStructure*> m_dynamicStructures;
+};
+
+} // namespace q3rt

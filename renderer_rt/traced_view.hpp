@@ -1,0 +1,85 @@
+#pragma once
+// One view's scene as tables and instances, on the CPU: pure but for the structures that instances point to.
+
+#include <vector>
+
+#include "gpu/acceleration_structure.hpp"
+#include "renderer_rt/static_geometry.hpp"
+#include "scene/entity_geometry.hpp"
+#include "shaders/shared/rt_scene.h"
+
+namespace q3rt {
+
+/// A run of one entity's triangles of one class: what becomes a structure of this frame.
+struct DynamicPart {
+    uint32_t entity = 0;
+    SurfaceClass surfaceClass = SurfaceClass::Solid;
+    std::vector<uint32_t> surfaces;             ///< in ViewGeometry::surfaces
+    uint32_t firstIndex = 0, triangleCount = 0; ///< in ViewTables::indices; relative to firstVertex
+    uint32_t firstVertex = 0, vertexCount = 0;  ///< in ViewGeometry::vertices
+};
+
+struct ViewTables {
+    std::vector<RtInstance> instances; ///< addresses are offsets in bytes until resolved for dynamic parts
+    std::vector<RtSurface> surfaces;
+    std::vector<RtEntity> entities;
+    std::vector<uint32_t> indices;           ///< of dynamic parts
+    std::vector<uint32_t> surfaceOfTriangle; ///< of dynamic parts, parallel to indices / 3
+    std::vector<DynamicPart> parts;
+    /// Instance i is built from staticPart[i], or from parts[dynamicPart[i]].
+    struct Source {
+        int staticPart = -1, dynamicPart = -1;
+        uint32_t entity = 0;
+        SurfaceClass surfaceClass = SurfaceClass::Solid;
+        uint8_t mask = 0;
+    };
+    std::vector<Source> sources;
+    std::vector<RtSky> skies;
+    bool hasLayers = false, hasNear = false;
+    uint32_t layerOrderCount = 0;
+    void clear();
+};
+
+/// Remembers the good order of triangles of each model surface, which does not change with its animation.
+class TriangleOrderCache {
+  public:
+    /// `indices` absolute in `vertices`. `source` null: no memory.
+    const std::vector<uint32_t>& find(const ModelSurface* source, std::span<const Vertex> vertices,
+                                      std::span<const uint32_t> indices);
+    void clear() { m_orders.clear(); }
+
+  private:
+    std::unordered_map<const ModelSurface*, std::vector<uint32_t>> m_orders;
+    std::vector<uint32_t> m_scratch;
+};
+
+class ViewTableBuilder {
+  public:
+    ViewTableBuilder(const MaterialLibrary& materials, StageTable& stages)
+        : m_materials(materials)
+        , m_stages(stages) {}
+    /// `statics` may be null (no world). `worldTimeSeconds` is the view's shader time.
+    void build(const World* world, const StaticGeometry* statics, const ViewGeometry& geometry, ViewTables& out);
+    const MaterialLibrary& materials() const { return m_materials; }
+
+  private:
+    void addStaticParts(const World& world, const StaticGeometry& statics, const ViewGeometry& geometry,
+                        uint32_t entity, int model, ViewTables& out);
+    void addDynamicParts(const ViewGeometry& geometry, ViewTables& out);
+    void appendTriangles(const ViewGeometry& geometry, DynamicPart& part, ViewTables& out);
+    RtSurface makeSurface(MaterialId material, SurfaceClass surfaceClass, int fog, const StageInputs& inputs,
+                          ViewTables& out);
+    uint32_t skyIndex(const Material& material, MaterialId id, const StageInputs& inputs, ViewTables& out);
+    void orderLayers(ViewTables& out);
+
+    const MaterialLibrary& m_materials;
+    StageTable& m_stages;
+    TriangleOrderCache m_orders;
+    std::vector<std::pair<uint32_t, uint32_t>> m_layers; ///< sort rank, surface table index
+    std::vector<std::pair<MaterialId, uint32_t>> m_skies;
+};
+
+/// Who sees an entity with these renderfx flags.
+Visibility visibilityOf(uint32_t entityFlags);
+
+} // namespace q3rt

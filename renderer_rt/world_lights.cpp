@@ -1,0 +1,200 @@
+#include "renderer_rt/world_lights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gpu/device.hpp"
+#include "shaders/shared/constants.h"
+
+namespace q3rt {
+
+namespace {
+
+constexpr VkBufferUsageFlags kTableUsage =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+
+template <typename T>
+Buffer makeTable(Device& device, Uploader& uploader, const std::vector<T>& items, const char* name) {
+    Buffer buffer(device, {.size = items.size() * sizeof(T), .usage = kTableUsage, .name = name});
+    if (!items.empty()) uploader.upload(buffer, std::span<const T>(items));
+    return buffer;
+}
+
+float largestComponent(const vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+RtTriangleLight makeTriangleLight(const TriangleLight& light) {
+    RtTriangleLight out{};
+    out.corner = light.corner[0];
+    out.edge1 = light.corner[1] - light.corner[0];
+    out.edge2 = light.corner[2] - light.corner[0];
+    out.normal = light.normal;
+    out.areaQu2 = light.areaQu2;
+    out.radiance = light.radiance;
+    out.twoSided = light.twoSided ? 1 : 0;
+    // |n| . error <= sqrt(3) x the largest component's error; the whole triangle has one bound.
+    const float size = largestComponent(out.corner) + largestComponent(out.edge1) + largestComponent(out.edge2);
+    out.error = 1.7320508f * kHitPointError * size;
+    return out;
+}
+
+/// A child of the map's tree as RtNode has it.
+int shaderChild(const World& world, int child) {
+    return child >= 0 ? child : -2 - world.bsp.leafs[static_cast<size_t>(-1 - child)].cluster;
+}
+
+std::vector<RtNode> makeNodes(const World& world) {
+    std::vector<RtNode> nodes;
+    nodes.reserve(world.bsp.nodes.size());
+    for (const BspNode& node : world.bsp.nodes) {
+        const Plane& plane = world.bsp.planes[static_cast<size_t>(node.plane)];
+        nodes.push_back({{plane.normal, plane.distance},
+                         shaderChild(world, node.children[0]),
+                         shaderChild(world, node.children[1])});
+    }
+    return nodes;
+}
+
+/// Luxel units of a grid value: the grid is shifted so that 255 shows a texture at its own brightness.
+constexpr float kLuxelOfGridValue = kWhiteIrradiance / 255.0f;
+
+/// Where an extracted light can reach a cell, the directed part of the grid is that light and must not count twice;
+/// elsewhere its light was lost with the map's source, and the directed part is all that is known of it.
+std::vector<RtGridCell> makeGrid(const World& world, const std::vector<RtLightRow>& rows, bool anyOther) {
+    std::vector<RtGridCell> cells;
+    const LightGrid& grid = world.grid;
+    for (int z = 0; z < grid.counts.z; ++z)
+        for (int y = 0; y < grid.counts.y; ++y)
+            for (int x = 0; x < grid.counts.x; ++x) {
+                const vec3 point = grid.origin + grid.cellSize * vec3(x, y, z);
+                const GridLight light = grid.sample(point);
+                const int cluster = world.clusterOf(point);
+                const RtLightRow& row =
+                    rows[cluster >= 0 && static_cast<size_t>(cluster) + 1 < rows.size() ? static_cast<size_t>(cluster)
+                                                                                        : rows.size() - 1];
+                const bool reached = row.count > 0 || (anyOther && row.seesSky != 0);
+                RtGridCell cell{};
+                cell.ambient = light.ambient * kLuxelOfGridValue;
+                cell.directed = reached ? vec3(0.0f) : light.directed * kLuxelOfGridValue;
+                cell.direction = light.direction;
+                cell.valid = light.ambient != vec3(0.0f) ? 1 : 0;
+                cells.push_back(cell);
+            }
+    return cells;
+}
+
+RtLight makePointLight(const PointLight& light) {
+    return {.position = light.origin,
+            .kind = kLightSphere,
+            .power = light.intensity,
+            .size = 0,
+            .axis = light.direction,
+            .cosOuter = light.spot ? light.cosOuter : -1.0f};
+}
+
+/// All skies together: each is an environment of its radiosity, and a ray that leaves the map meets only one.
+std::vector<RtLight> makeOtherLights(const LightSet& lights) {
+    std::vector<RtLight> out;
+    for (const SunLight& sun : lights.suns)
+        out.push_back({.position = sun.direction,
+                       .kind = kLightSun,
+                       .power = sun.irradiance,
+                       .size = 1.0f - std::cos(sun.halfAngleRadians),
+                       .axis = vec3(0.0f),
+                       .cosOuter = -1.0f});
+    vec3 brightest(0.0f);
+    for (const SkyLight& sky : lights.skies)
+        brightest = glm::max(brightest, sky.radiosity * sky.color);
+    if (brightest != vec3(0.0f))
+        out.push_back({.position = vec3(0.0f),
+                       .kind = kLightSky,
+                       .power = brightest,
+                       .size = 0,
+                       .axis = vec3(0.0f),
+                       .cosOuter = -1.0f});
+    for (const PointLight& point : lights.points)
+        out.push_back(makePointLight(point));
+    return out;
+}
+
+} // namespace
+
+RtLight makeDynamicLight(const vec3& origin, float radiusQu, const vec3& color) {
+    return {.position = origin,
+            .kind = kLightSphere,
+            .power = color * (kDynamicLightIntensity * radiusQu * radiusQu),
+            .size = kLightMinDistanceQu,
+            .axis = vec3(0.0f),
+            .cosOuter = -1.0f};
+}
+
+std::vector<bool> findSkyClusters(const World& world, const MaterialLibrary& materials) {
+    const Bsp& bsp = world.bsp;
+    const auto count = static_cast<size_t>(bsp.clusterCount);
+    std::vector<bool> holds(count, false);
+    bool outside = false;
+    for (const BspLeaf& leaf : bsp.leafs)
+        for (int i = 0; i < leaf.leafSurfaceCount; ++i) {
+            const int surface = bsp.leafSurfaces[static_cast<size_t>(leaf.firstLeafSurface + i)];
+            if (!materials.get(world.surfaces[static_cast<size_t>(surface)].material).isSky) continue;
+            if (leaf.cluster >= 0 && static_cast<size_t>(leaf.cluster) < count)
+                holds[static_cast<size_t>(leaf.cluster)] = true;
+            else
+                outside = true;
+        }
+    if (outside) return std::vector<bool>(count, true);
+    std::vector<bool> sees(count, false);
+    for (size_t from = 0; from < count; ++from)
+        for (size_t to = 0; to < count && !sees[from]; ++to)
+            sees[from] = holds[to] && bsp.clusterVisible(static_cast<int>(from), static_cast<int>(to));
+    return sees;
+}
+
+LightTables buildLightTables(const World& world, const LightSet& lights, const std::vector<bool>& seesSky) {
+    LightTables tables;
+    for (const TriangleLight& light : lights.triangles)
+        tables.triangles.push_back(makeTriangleLight(light));
+    tables.others = makeOtherLights(lights);
+    const LightTable table = buildLightTable(world, lights, true);
+    tables.indices = table.lights;
+    for (size_t r = 0; r + 1 < table.offset.size(); ++r)
+        tables.rows.push_back({.first = table.offset[r],
+                               .count = table.offset[r + 1] - table.offset[r],
+                               .seesSky = r < seesSky.size() ? (seesSky[r] ? 1u : 0u) : 1u});
+    tables.nodes = makeNodes(world);
+    tables.grid = makeGrid(world, tables.rows, !tables.others.empty());
+    return tables;
+}
+
+WorldLights::WorldLights(Device& device, Uploader& uploader, const World& world, const MaterialLibrary& materials) {
+    const LightSet lights = extractLights(world, materials);
+    const LightTables tables = buildLightTables(world, lights, findSkyClusters(world, materials));
+    m_others = tables.others;
+    m_triangles = makeTable(device, uploader, tables.triangles, "triangle lights");
+    m_rows = makeTable(device, uploader, tables.rows, "light rows");
+    m_indices = makeTable(device, uploader, tables.indices, "light indices");
+    m_nodes = makeTable(device, uploader, tables.nodes, "map nodes");
+    m_grid = makeTable(device, uploader, tables.grid, "light grid");
+    m_triangleCount = tables.triangles.size();
+    m_rowEntryCount = tables.indices.size();
+    m_clusterCount = static_cast<uint32_t>(tables.rows.size()) - 1;
+    m_gridOrigin = world.grid.origin;
+    m_gridCellSize = world.grid.cellSize;
+    m_gridCounts = world.grid.empty() ? ivec3(0) : world.grid.counts;
+    uploader.flush();
+}
+
+void WorldLights::describe(RtFrame& frame) const {
+    frame.triangleLights = m_triangles.address();
+    frame.lightRows = m_rows.address();
+    frame.lightIndices = m_indices.address();
+    frame.nodes = m_nodes.address();
+    frame.grid = m_grid.address();
+    frame.triangleLightCount = static_cast<uint32_t>(m_triangleCount);
+    frame.clusterCount = m_clusterCount;
+    frame.gridOrigin = m_gridOrigin;
+    frame.gridCellSize = m_gridCellSize;
+    frame.gridCounts = m_gridCounts;
+    if (m_gridCounts.x > 0) frame.flags |= kFrameGrid;
+}
+
+} // namespace q3rt

@@ -1,0 +1,50 @@
+#pragma once
+// The lights, the light table, the tree that finds a point's row in it, and the light grid: built at load, read by the
+// direct-illumination stage.
+
+#include <vector>
+
+#include "gpu/uploader.hpp"
+#include "scene/lights.hpp"
+#include "shaders/shared/rt_scene.h"
+
+namespace q3rt {
+
+/// What is uploaded, as plain tables: pure, testable.
+struct LightTables {
+    std::vector<RtTriangleLight> triangles;
+    std::vector<RtLight> others;  ///< suns, sky, point lights; a frame's dynamic lights follow them
+    std::vector<RtLightRow> rows; ///< a cluster each, then one for "outside"
+    std::vector<uint32_t> indices;
+    std::vector<RtNode> nodes;
+    std::vector<RtGridCell> grid;
+};
+/// `seesSky`: by cluster, see findSkyClusters().
+LightTables buildLightTables(const World& world, const LightSet& lights, const std::vector<bool>& seesSky);
+
+/// Clusters from which any part of a sky surface may be seen; all of them if a sky surface is in no cluster.
+std::vector<bool> findSkyClusters(const World& world, const MaterialLibrary& materials);
+
+/// A dynamic light of the game as a sphere (units: shaders/shared/constants.h).
+RtLight makeDynamicLight(const vec3& origin, float radiusQu, const vec3& color);
+
+class WorldLights {
+  public:
+    WorldLights(Device& device, Uploader& uploader, const World& world, const MaterialLibrary& materials);
+    /// Fills the frame's light addresses and counts, all but `lights` (see others()).
+    void describe(RtFrame& frame) const;
+    const std::vector<RtLight>& others() const { return m_others; }
+    size_t triangleCount() const { return m_triangleCount; }
+    size_t rowEntryCount() const { return m_rowEntryCount; }
+    uint32_t clusterCount() const { return m_clusterCount; }
+
+  private:
+    std::vector<RtLight> m_others;
+    Buffer m_triangles, m_rows, m_indices, m_nodes, m_grid;
+    size_t m_triangleCount = 0, m_rowEntryCount = 0;
+    uint32_t m_clusterCount = 0;
+    vec3 m_gridOrigin{0}, m_gridCellSize{1};
+    ivec3 m_gridCounts{0};
+};
+
+} // namespace q3rt
