@@ -157,16 +157,9 @@ void DrawListBuilder::appendBatch(ViewWork& work, size_t firstItem, size_t lastI
     if (debugSort > 0 && material.sort > debugSort) return;
     if (material.isSky) {
         if (!work.settings.fastSky) appendSky(work, material, id, firstItem, lastItem);
-        work.lastEntity = static_cast<int>(last.entity);
         return;
     }
     const EntityRecord& record = work.geometry.entities[last.entity];
-    StageInputs inputs = record.stage;
-    // The original applies clampTime only to a batch that goes on with the entity of the batch before.
-    if (material.clampTimeSeconds > 0 && work.lastEntity == static_cast<int>(last.entity))
-        inputs.shaderTimeSeconds = std::min<double>(inputs.shaderTimeSeconds, material.clampTimeSeconds);
-    work.lastEntity = static_cast<int>(last.entity);
-
     DrawBatch batch;
     batch.material = id;
     batch.source = last.fromWorld ? VertexSource::World : VertexSource::Dynamic;
@@ -175,7 +168,7 @@ void DrawListBuilder::appendBatch(ViewWork& work, size_t firstItem, size_t lastI
         appendItemIndices(work, work.items[i]);
     batch.indexCount = static_cast<uint32_t>(work.out.indices.size()) - batch.firstIndex;
     if (batch.indexCount == 0) return;
-    batch.stages = m_stages.evaluate(id, inputs);
+    batch.stages = m_stages.evaluate(id, record.stage);
     batch.entity = entityIndex(work, last.entity);
     batch.fog = fogIndex(work, last.fog);
     if (record.flags & entityFlag::kDepthHack) batch.depthRange = DepthRange::Weapon;

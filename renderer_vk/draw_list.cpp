@@ -72,6 +72,8 @@ void DrawListBuilder::buildView(ViewWork& work) {
     work.entityIndices.assign(work.geometry.entities.size(), -1);
     work.fogIndices.assign(m_world ? m_world->fogs.size() : 1, -1);
 
+    findDeformed(work);
+
     ++m_stamp;
     if (world && work.settings.drawWorld) addWorld(work);
     addEntities(work);
@@ -106,14 +108,16 @@ bool DrawListBuilder::surfaceCulled(const ViewWork& work, const WorldSurface& su
     return true;
 }
 
-void DrawListBuilder::addWorld(ViewWork& work) {
-    if (work.settings.dynamicLights) findWorldLights(*m_world, work.visible, work.lights(), work.worldLights);
-    work.deformedSurface.assign(m_world->surfaces.size(), -1);
+void DrawListBuilder::findDeformed(ViewWork& work) {
+    work.deformedSurface.assign(m_world ? m_world->surfaces.size() : 0, -1);
     for (size_t i = 0; i < work.geometry.surfaces.size(); ++i) {
         const int surface = work.geometry.surfaces[i].worldSurface;
-        if (surface >= 0 && work.geometry.surfaces[i].entity == 0)
-            work.deformedSurface[static_cast<size_t>(surface)] = static_cast<int>(i);
+        if (surface >= 0) work.deformedSurface[static_cast<size_t>(surface)] = static_cast<int>(i);
     }
+}
+
+void DrawListBuilder::addWorld(ViewWork& work) {
+    if (work.settings.dynamicLights) findWorldLights(*m_world, work.visible, work.lights(), work.worldLights);
     auto light = work.worldLights.begin();
     for (size_t i = 0; i < work.visible.surfaces.size(); ++i) {
         const auto first = static_cast<uint32_t>(work.lightRefs.size());
@@ -141,7 +145,7 @@ void DrawListBuilder::addWorldSurface(ViewWork& work, uint32_t index, uint32_t e
               true,
               firstLight,
               lightCount};
-    const int deformed = entity == 0 && !work.deformedSurface.empty() ? work.deformedSurface[index] : -1;
+    const int deformed = work.deformedSurface[index];
     if (deformed >= 0) {
         item.fromWorld = false;
         item.surface = static_cast<uint32_t>(deformed);
@@ -188,8 +192,8 @@ void DrawListBuilder::addEntities(ViewWork& work) {
         if (entities[i].inlineModel >= 0) addBrushModel(work, i);
     for (size_t i = 0; i < work.geometry.surfaces.size(); ++i) {
         const EntitySurface& surface = work.geometry.surfaces[i];
-        const bool ofWorld = surface.worldSurface >= 0 && surface.entity == 0;
-        if (!surface.isPoly && !ofWorld && work.entityCull[surface.entity] != CullResult::Outside) add(i);
+        if (!surface.isPoly && surface.worldSurface < 0 && work.entityCull[surface.entity] != CullResult::Outside)
+            add(i);
     }
 }
 

@@ -48,6 +48,7 @@ class DrawListBuilder {
     struct ViewWork; // of one view, in draw_list.cpp
 
     void buildView(ViewWork& work);
+    void findDeformed(ViewWork& work);
     void addWorld(ViewWork& work);
     void addWorldSurface(ViewWork& work, uint32_t surface, uint32_t entity, uint32_t firstLight, uint32_t lightCount);
     void addEntities(ViewWork& work);

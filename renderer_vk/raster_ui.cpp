@@ -56,8 +56,6 @@ void RasterScene::addUiPicture(const Picture& picture, uint32_t entity, int cloc
     }
     StageInputs inputs;
     inputs.shaderTimeSeconds = clockMs * 0.001;
-    const float clampTime = m_materials->get(id).clampTimeSeconds;
-    if (clampTime > 0) inputs.shaderTimeSeconds = std::min<double>(inputs.shaderTimeSeconds, clampTime);
     DrawBatch batch;
     batch.material = id;
     batch.source = VertexSource::Dynamic;

@@ -27,7 +27,6 @@ struct DrawListBuilder::ViewWork {
     std::vector<CullResult> entityCull;
     std::vector<int> deformedSurface; ///< by world surface: index in geometry.surfaces, -1 drawn as it is
     uint32_t vertexBase = 0;          ///< of geometry.vertices in out.vertices
-    int lastEntity = -1;              ///< of the batch before
 
     bool hasWorld() const { return (view.scene->flags & viewFlag::kNoWorldModel) == 0; }
     std::span<const SceneLight> lights() const {

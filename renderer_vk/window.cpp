@@ -190,7 +190,8 @@ int Window::refreshHz() const {
 
 bool Window::setFullscreen(bool fullscreen) {
     if (!m_presents || fullscreen == m_fullscreen) return true;
-    if (m_sdl->setWindowFullscreen(asSdl(m_window), fullscreen ? Uint32{SDL_WINDOW_FULLSCREEN} : Uint32{0}) != 0) return false;
+    if (m_sdl->setWindowFullscreen(asSdl(m_window), fullscreen ? Uint32{SDL_WINDOW_FULLSCREEN} : Uint32{0}) != 0)
+        return false;
     m_fullscreen = fullscreen;
     m_engine.inputRestart();
     return true;

@@ -1,0 +1,115 @@
+// The rasteriser on a real device: a map's picture is there, repeats exactly, and the validation layer has nothing to say.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "formats/image.hpp"
+#include "gpu/device.hpp"
+#include "raster/test_services.hpp"
+#include "renderer_vk/vk_renderer.hpp"
+#include "support/game_data.hpp"
+
+namespace q3rt {
+namespace {
+
+constexpr int kWidth = 320, kHeight = 240;
+
+/// The rasteriser with its messages in reach.
+class TestRenderer final : public GpuRenderer {
+  public:
+    using GpuRenderer::GpuRenderer;
+    const std::vector<std::string>& messages() { return context().device().validationMessages(); }
+    const World* map() const { return world(); }
+
+  private:
+    void drawWorldView(FrameGraph& graph, FrameTargets& targets, const FrameCommands& frame,
+                       const SceneView& scene) override {
+        raster().addView(graph, targets, frame, scene, drawListSettings(), "world view");
+    }
+    const char* backendName() const override { return "raster"; }
+    const char* rendererName() const override { return "test"; }
+};
+
+SceneView spawnView(const World& world, size_t number) {
+    size_t found = 0;
+    SceneView view;
+    for (const MapEntity& entity : world.entities) {
+        if (entity.className() != "info_player_deathmatch" || found++ != number) continue;
+        view.view.origin = entity.vector("origin").value_or(vec3(0)) + vec3(0, 0, 26);
+        const float yaw = glm::radians(entity.number("angle", 0));
+        view.view.axis[0] = vec3(std::cos(yaw), std::sin(yaw), 0);
+        view.view.axis[1] = vec3(-std::sin(yaw), std::cos(yaw), 0);
+        view.view.axis[2] = vec3(0, 0, 1);
+    }
+    view.width = kWidth;
+    view.height = kHeight;
+    view.fovXDegrees = 90;
+    view.fovYDegrees = 73.74f; // 4:3
+    return view;
+}
+
+/// One frame: the view, and a picture of the console font over it. Rows top first, RGB.
+std::vector<uint8_t> drawFrame(TestRenderer& renderer, test::TestServices& services, const SceneView& view, int shader) {
+    renderer.beginFrame(0);
+    renderer.clearScene();
+    renderer.renderScene(view);
+    renderer.setColor(std::nullopt);
+    renderer.drawPicture(8, 8, 64, 64, 0, 0, 1, 1, shader);
+    renderer.takeVideoFrame(kWidth, kHeight, nullptr, nullptr, false);
+    renderer.endFrame();
+    std::vector<uint8_t> rgb;
+    for (int y = kHeight - 1; y >= 0; --y) {
+        for (int x = 0; x < kWidth; ++x) {
+            const size_t at = static_cast<size_t>(y * kWidth + x) * 3;
+            rgb.insert(rgb.end(), {services.video[at + 2], services.video[at + 1], services.video[at]});
+        }
+    }
+    return rgb;
+}
+
+/// For looking at: writes a PNG if Q3RT_TEST_IMAGES names a folder.
+void keepImage(const std::string& name, const std::vector<uint8_t>& rgb) {
+    const char* folder = std::getenv("Q3RT_TEST_IMAGES");
+    if (!folder) return;
+    const auto png = encodePng(kWidth, kHeight, 3, rgb);
+    std::ofstream(std::string(folder) + "/" + name + ".png", std::ios::binary)
+        .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+}
+
+TEST(RasterDraw, MapIsDrawnWithoutValidationMessages) {
+    Q3RT_OPEN_GAME_DATA_OR_SKIP(files);
+    setenv("Q3RT_VALIDATION", "1", 1);
+    test::TestServices services(*files);
+    services.setCvar("r_mode", "-1");
+    services.setCvar("r_customwidth", std::to_string(kWidth));
+    services.setCvar("r_customheight", std::to_string(kHeight));
+    services.setCvar("r_picmip", "0");
+    services.setCvar("q3rt_wantStats", "1");
+    TestRenderer renderer(services);
+    try {
+        renderer.beginRegistration();
+    } catch (const DeviceError& error) {
+        GTEST_SKIP() << "no Vulkan device: " << error.what();
+    }
+    const char* map = std::getenv("Q3RT_TEST_MAP");
+    renderer.loadWorld(map ? map : "maps/oa_dm1.bsp");
+    const int shader = renderer.registerShader("gfx/2d/bigchars", false);
+    renderer.endRegistration();
+    const SceneView view = spawnView(*renderer.map(), 0);
+    const std::vector<uint8_t> first = drawFrame(renderer, services, view, shader);
+    const std::vector<uint8_t> second = drawFrame(renderer, services, view, shader);
+    keepImage("spawn0", first);
+    size_t bright = 0;
+    for (const uint8_t value : first) bright += value > 16 ? 1u : 0u;
+    EXPECT_GT(bright, first.size() / 2) << "the picture is mostly black";
+    EXPECT_EQ(first, second) << "the same frame twice gives two pictures";
+    EXPECT_NE(services.cvar("q3rt_stats", "", 0).string().find("\"world view\""), std::string::npos);
+    for (const std::string& message : renderer.messages()) ADD_FAILURE() << message;
+    renderer.shutdownRegistration();
+    for (const std::string& message : renderer.messages()) ADD_FAILURE() << message;
+}
+
+} // namespace
+} // namespace q3rt

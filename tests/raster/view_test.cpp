@@ -1,0 +1,193 @@
+// Cameras, culling, portals and order of drawing: pure CPU.
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "renderer_vk/draw_list.hpp"
+#include "renderer_vk/portal.hpp"
+#include "renderer_vk/sky.hpp"
+#include "renderer_vk/view_setup.hpp"
+
+namespace q3rt {
+namespace {
+
+constexpr float kTolerance = 1e-4f; // of positions of a few hundred units in float
+
+RasterView viewAt(const SceneView& scene) {
+    RasterView view = makeMainView(scene, 4.0f);
+    view.farQu = 2048;
+    updateProjection(view);
+    return view;
+}
+
+TEST(RasterView, ProjectionPutsPointsWhereTheFieldOfViewSays) {
+    SceneView scene;
+    scene.fovXDegrees = scene.fovYDegrees = 90;
+    const RasterView view = viewAt(scene);
+    // 45 degrees to the left and up at depth 100: the top-left corner; y points down in Vulkan.
+    const vec4 corner = view.clipFromWorld * vec4(100, 100, 100, 1);
+    EXPECT_NEAR(corner.x / corner.w, -1.0f, kTolerance);
+    EXPECT_NEAR(corner.y / corner.w, -1.0f, kTolerance);
+    const vec4 nearPoint = view.clipFromWorld * vec4(4, 0, 0, 1), farPoint = view.clipFromWorld * vec4(2048, 0, 0, 1);
+    EXPECT_NEAR(nearPoint.z / nearPoint.w, 0.0f, kTolerance);
+    EXPECT_NEAR(farPoint.z / farPoint.w, 1.0f, kTolerance);
+}
+
+TEST(RasterView, CullingAgreesWithProjection) {
+    SceneView scene;
+    scene.fovXDegrees = 90;
+    scene.fovYDegrees = 70;
+    const RasterView view = viewAt(scene);
+    std::mt19937 generator(7);
+    std::uniform_real_distribution<float> place(-400, 400), size(1, 40);
+    int outside = 0, checked = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const vec3 center(place(generator), place(generator), place(generator));
+        const vec3 half(size(generator), size(generator), size(generator));
+        const CullResult box = cullBox(view, Bounds{center - half, center + half});
+        const CullResult sphere = cullSphere(view, center, glm::length(half));
+        const vec4 clip = view.clipFromWorld * vec4(center, 1);
+        const bool seen = clip.w > 0 && std::abs(clip.x) < clip.w && std::abs(clip.y) < clip.w;
+        if (box == CullResult::Outside) {
+            EXPECT_FALSE(seen) << "a box whose centre is on the screen was culled";
+            ++outside;
+        }
+        if (sphere == CullResult::Outside) {
+            EXPECT_EQ(box, CullResult::Outside) << "the sphere holds the box";
+        }
+        ++checked;
+    }
+    EXPECT_EQ(checked, 4000);
+    EXPECT_GT(outside, 1000);
+    EXPECT_LT(outside, 3900);
+}
+
+TEST(RasterView, SortKeysFollowRankEntityFogLight) {
+    EXPECT_LT(makeSortKey(1, -1, 5, true), makeSortKey(2, 0, 0, false)) << "rank first";
+    EXPECT_LT(makeSortKey(3, 900, 5, true), makeSortKey(3, -1, 0, false)) << "the world after all entities";
+    EXPECT_LT(makeSortKey(3, 5000, 0, false), makeSortKey(3, -1, 0, false)) << "also after very many";
+    EXPECT_LT(makeSortKey(3, 1, 9, true), makeSortKey(3, 2, 0, false)) << "entity before fog";
+    EXPECT_LT(makeSortKey(3, 1, 0, true), makeSortKey(3, 1, 1, false)) << "fog before light";
+    EXPECT_LT(makeSortKey(3, 1, 1, false), makeSortKey(3, 1, 1, true));
+}
+
+SceneEntity portalEntity(const vec3& origin, const vec3& camera) {
+    SceneEntity entity;
+    entity.kind = EntityKind::PortalSurface;
+    entity.orientation.origin = origin;
+    entity.oldOrigin = camera;
+    return entity;
+}
+
+// A wall at x = 200 that faces the eye at the origin.
+const Plane kWall{vec3(-1, 0, 0), -200};
+
+TEST(RasterPortal, EntityWithin64UnitsOfThePlaneIsUsed) {
+    SceneView scene;
+    const RasterView view = viewAt(scene);
+    for (const auto& [distance, used] : {std::pair(0.0f, true), {60.0f, true}, {64.0f, true}, {70.0f, false}}) {
+        const vec3 origin(200 - distance, 0, 0);
+        const SceneEntity entity = portalEntity(origin, vec3(0, 1000, 0));
+        EXPECT_EQ(makePortalView(view, kWall, kWall, std::span(&entity, 1)).has_value(), used) << distance;
+    }
+}
+
+TEST(RasterPortal, MirrorReflectsTheEyeAndTheAxes) {
+    SceneView scene;
+    scene.view.origin = vec3(50, 10, 20);
+    const RasterView view = viewAt(scene);
+    const SceneEntity entity = portalEntity(vec3(200, 0, 0), vec3(200, 0, 0));
+    const auto mirror = makePortalView(view, kWall, kWall, std::span(&entity, 1));
+    ASSERT_TRUE(mirror.has_value());
+    EXPECT_TRUE(mirror->mirrored);
+    EXPECT_NEAR(glm::distance(mirror->eye.origin, vec3(350, 10, 20)), 0.0f, kTolerance);
+    EXPECT_NEAR(glm::distance(mirror->eye.axis[0], vec3(-1, 0, 0)), 0.0f, kTolerance);
+    EXPECT_NEAR(glm::distance(mirror->eye.axis[1], vec3(0, 1, 0)), 0.0f, kTolerance);
+    EXPECT_NEAR(glm::distance(mirror->eye.axis[2], vec3(0, 0, 1)), 0.0f, kTolerance);
+    // What is behind the mirror is clipped, what is before it stays.
+    EXPECT_LT(glm::dot(mirror->clip.normal, vec3(250, 0, 0)), mirror->clip.distance);
+    EXPECT_GT(glm::dot(mirror->clip.normal, vec3(100, 0, 0)), mirror->clip.distance);
+}
+
+TEST(RasterPortal, RemoteCameraLooksAlongItsEntity) {
+    SceneView scene;
+    const RasterView view = viewAt(scene);
+    const vec3 camera(1000, 2000, 300);
+    SceneEntity entity = portalEntity(vec3(200, 0, 0), camera);
+    const auto portal = makePortalView(view, kWall, kWall, std::span(&entity, 1));
+    ASSERT_TRUE(portal.has_value());
+    EXPECT_FALSE(portal->mirrored);
+    EXPECT_EQ(portal->pvsOrigin, camera);
+    // The eye stands 200 units before the surface: as far behind the camera, which looks along +x.
+    EXPECT_NEAR(glm::distance(portal->eye.axis[0], vec3(1, 0, 0)), 0.0f, kTolerance);
+    EXPECT_NEAR(glm::distance(portal->eye.origin, camera - vec3(200, 0, 0)), 0.0f, kTolerance);
+    EXPECT_NEAR(glm::distance(glm::cross(portal->eye.axis[0], portal->eye.axis[1]), portal->eye.axis[2]), 0.0f, kTolerance);
+}
+
+TEST(RasterPortal, HiddenAndFarSurfacesGiveNoView) {
+    SceneView scene;
+    const RasterView view = viewAt(scene);
+    const auto visible = [&](const vec3& offset, const vec3& normal, float range, bool mirror) {
+        const vec3 positions[3] = {offset + vec3(0, -40, -40), offset + vec3(0, 40, -40), offset + vec3(0, 0, 40)};
+        const vec3 normals[3] = {normal, normal, normal};
+        const uint32_t indices[3] = {0, 1, 2};
+        return portalVisible(view, {positions, normals, indices, kWall}, range, mirror);
+    };
+    EXPECT_TRUE(visible(vec3(200, 0, 0), vec3(-1, 0, 0), 256, false));
+    EXPECT_FALSE(visible(vec3(200, 0, 0), vec3(1, 0, 0), 256, false)) << "faces away";
+    EXPECT_FALSE(visible(vec3(-200, 0, 0), vec3(1, 0, 0), 256, false)) << "behind the eye";
+    EXPECT_FALSE(visible(vec3(300, 0, 0), vec3(-1, 0, 0), 256, false)) << "beyond its range";
+    EXPECT_TRUE(visible(vec3(300, 0, 0), vec3(-1, 0, 0), 0, true)) << "mirrors have no range";
+}
+
+TEST(RasterSky, CoverageIsRoundedOutwardToBlocks) {
+    SkyCoverage coverage;
+    coverage.clear();
+    // On face +x: s = -y/x, t = z/x.
+    coverage.addTriangle(vec3(100, -10, 10), vec3(100, -30, 10), vec3(100, -10, 40));
+    const auto range = coverage.blocks(0);
+    EXPECT_EQ(range.firstS, 4);
+    EXPECT_EQ(range.lastS, 6);
+    EXPECT_EQ(range.firstT, 4);
+    EXPECT_EQ(range.lastT, 6);
+    for (int face = 1; face < kSkyFaces; ++face) EXPECT_TRUE(coverage.blocks(face).empty()) << face;
+}
+
+TEST(RasterSky, BlocksShowClockwiseFromTheEye) {
+    SkyCoverage coverage;
+    coverage.clear();
+    const float far = 100;
+    int triangles = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const float sign : {-1.0f, 1.0f}) {
+            vec3 a(far), b(-far), c(far);
+            a[axis] = b[axis] = c[axis] = sign * far;
+            a[(axis + 1) % 3] = -far;
+            coverage.addTriangle(a, b, c);
+        }
+    }
+    for (int face = 0; face < kSkyFaces; ++face) {
+        std::vector<Vertex> vertices;
+        std::vector<uint32_t> indices;
+        appendSkyFace(coverage, face, vec3(0), 100, false, 0, vertices, indices);
+        for (size_t i = 0; i + 2 < indices.size(); i += 3) {
+            const vec3 &p = vertices[indices[i]].position, &q = vertices[indices[i + 1]].position,
+                       &r = vertices[indices[i + 2]].position;
+            // Clockwise seen from the origin: the counter-clockwise normal points away from the eye.
+            EXPECT_GT(glm::dot(glm::cross(q - p, r - p), p), 0.0f) << "face " << face;
+            ++triangles;
+        }
+    }
+    EXPECT_GE(triangles, 6 * 64);
+}
+
+TEST(RasterSky, CloudsOverheadAreAtARightAngle) {
+    const vec2 st = cloudCoordinates(vec3(0, 0, 1), 512);
+    EXPECT_NEAR(st.x, 1.5707963f, 1e-6f);
+    EXPECT_NEAR(st.y, 1.5707963f, 1e-6f);
+    EXPECT_LT(cloudCoordinates(vec3(1, 0, 0.2f), 512).x, st.x);
+}
+
+} // namespace
+} // namespace q3rt
