@@ -1,0 +1,54 @@
+#pragma once
+// Writes a recording. The file appears under its name only when finish() has written all of it; until then, and after
+// any failure, there is at most a temporary file beside it, which the destructor removes.
+
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "trace/recording_format.hpp"
+#include "trace/trace_event.hpp"
+
+namespace q3rt {
+
+class RecordingWriter {
+  public:
+    /// Throws UsageError if the folder can't be written to.
+    explicit RecordingWriter(std::filesystem::path path);
+    ~RecordingWriter();
+    RecordingWriter(const RecordingWriter&) = delete;
+    RecordingWriter& operator=(const RecordingWriter&) = delete;
+
+    /// Appends an event; EndFrame closes the frame. Throws UsageError when the disk is full.
+    void add(TraceEvent event);
+    void addFile(TraceFile file);
+    void setRenderer(std::string name) { m_info.renderer = std::move(name); }
+    /// Writes the rest and gives the file its name. Events after the last EndFrame are left out.
+    void finish();
+    const TraceInfo& info() const { return m_info; }
+
+  private:
+    struct CloseFile {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+    void noteEvent(const TraceEvent& event);
+    void closeFrame();
+    void writeEvents();
+    uint64_t writeChunk(TraceChunk kind, const std::vector<std::byte>& raw);
+    void write(const void* data, size_t bytes);
+    [[noreturn]] void fail(const char* what) const;
+
+    std::filesystem::path m_path, m_temporary;
+    std::unique_ptr<std::FILE, CloseFile> m_file;
+    uint64_t m_offset = 0; ///< bytes written
+    std::vector<std::byte> m_events;
+    size_t m_frameStart = 0;   ///< in m_events
+    size_t m_firstPending = 0; ///< first index entry whose chunk isn't written yet
+    std::vector<TraceIndexEntry> m_index;
+    std::map<std::string, TraceFile> m_files;
+    TraceInfo m_info;
+    bool m_worldReady = false, m_worldSeen = false;
+};
+
+} // namespace q3rt
