@@ -162,7 +162,7 @@ bool isToolKeyword(std::string_view keyword) {
 }
 
 void readStage(MaterialDraft& draft, const ScriptStage& script, const CompileContext& context) {
-    if (draft.stages.size() == kMaxStages) return draft.fail(0, "more than 8 stages");
+    if (draft.stages.size() == kMaxStages) return draft.fail(draft.line, "more than 8 stages");
     StageDraft stage;
     for (const ScriptLine& line : script.lines) {
         readStageLine(draft, stage, line, context);
@@ -255,6 +255,7 @@ void readGeneralLine(MaterialDraft& draft, const ScriptLine& line, const Compile
 MaterialDraft compileScript(const ScriptDefinition& definition, const CompileContext& context) {
     MaterialDraft draft;
     draft.file = definition.file;
+    draft.line = definition.line;
     draft.material.name = definition.name;
     draft.material.lightmap = context.lightmap;
     draft.material.explicitScript = true;

@@ -38,6 +38,7 @@ struct MaterialDraft {
     std::optional<vec3> sunDirection, sunLight;
     std::optional<float> cloudHeight;
     std::string file; ///< for messages
+    int line = 0;     ///< of the definition
 
     void fail(int line, std::string_view what);
     void warn(int line, std::string_view what) const;

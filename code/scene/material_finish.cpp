@@ -14,7 +14,7 @@ void dropStages(MaterialDraft& draft, const CompileContext& context) {
     if (!context.settings.detailTextures) std::erase_if(stages, [](const StageDraft& s) { return s.stage.detail; });
     const auto imageless = std::find_if(stages.begin(), stages.end(), [](const StageDraft& s) { return !s.hasImage; });
     if (imageless == stages.end()) return;
-    draft.warn(0, "has a stage without an image: it and all later ones are not drawn");
+    if (draft.failure.empty()) draft.warn(draft.line, "a stage has no image: it and all later ones are not drawn");
     stages.erase(imageless, stages.end());
 }
 
