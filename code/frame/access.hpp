@@ -1,6 +1,8 @@
 #pragma once
 // How a pass touches a resource: stages, accesses, and for images the layout and the usage it needs of the image.
 
+#include <string>
+
 #include "gpu/vulkan_api.hpp"
 
 namespace q3rt {
@@ -86,7 +88,16 @@ inline constexpr Access kQueryTrace{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
 
 } // namespace access
 
-/// Does any bit of it write?
-bool isWrite(VkAccessFlags2 access);
+/// The bits of it that write.
+VkAccessFlags2 writesOf(VkAccessFlags2 access);
+inline bool isWrite(VkAccessFlags2 access) { return writesOf(access) != 0; }
+/// Is whatever is visible to `seen` visible to `wanted` as well? Knows that ALL_COMMANDS, SHADER_READ and MEMORY_READ
+/// stand for many.
+bool coversAccess(const ResourceState& seen, const Access& wanted);
+
+/// "compute|fragment", "sampled|storage-write", "general": for printed frames.
+std::string stageText(VkPipelineStageFlags2 stages);
+std::string accessText(VkAccessFlags2 access);
+std::string layoutText(VkImageLayout layout);
 
 } // namespace q3rt

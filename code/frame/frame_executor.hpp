@@ -2,6 +2,7 @@
 // Runs a compiled FrameGraph: makes or reuses transient resources, emits the barriers, wraps each pass in a debug label
 // and a GPU timer.
 
+#include <memory>
 #include <vector>
 
 #include "frame/frame_graph.hpp"
@@ -36,6 +37,9 @@ class PassContext {
         , m_graph(graph)
         , m_images(images)
         , m_buffers(buffers) {}
+    const GraphResource& imageResource(ImageId image) const;
+    GpuImage& boundImage(ImageId image) const;
+    const Buffer& boundBuffer(BufferId buffer) const;
     VkCommandBuffer m_commands;
     FrameRing& m_ring;
     const FrameGraph& m_graph;
@@ -72,7 +76,7 @@ class FrameExecutor {
     GpuImage* takeImage(const GraphResource& resource);
     Buffer* takeBuffer(const GraphResource& resource);
     void emitBarriers(VkCommandBuffer commands, const FrameGraph& graph, const GraphPass& pass);
-    void bindResources(FrameGraph& graph, uint32_t pass);
+    void takeResources(const FrameGraph& graph, uint32_t pass);
     void freeResources(const FrameGraph& graph, uint32_t pass);
     void dropUnused();
 

@@ -41,7 +41,10 @@ struct GraphImageInfo {
     uint32_t mipCount = 1;
     uint32_t layerCount = 1;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-    bool operator==(const GraphImageInfo&) const = default;
+    bool operator==(const GraphImageInfo& other) const {
+        return extent.width == other.extent.width && extent.height == other.extent.height && format == other.format &&
+               mipCount == other.mipCount && layerCount == other.layerCount && samples == other.samples;
+    }
 };
 
 /// Handed to `declare`.
@@ -79,6 +82,7 @@ struct GraphResource {
     VkImage foreignImage = VK_NULL_HANDLE; // a swapchain image
     VkImageView foreignView = VK_NULL_HANDLE;
     bool imported = false;
+    ResourceState* persistent = nullptr; // where `final` is kept for the next frame
     ResourceState initial;
     // Filled by compile():
     VkImageUsageFlags imageUsage = 0;
@@ -126,7 +130,10 @@ class FrameGraph {
     BufferId importBuffer(const char* name, Buffer& buffer);
     /// The swapchain's image: undefined at first.
     ImageId importForeign(const char* name, VkImage image, VkImageView view, const GraphImageInfo& info);
-    /// For tests, and for things with no handle of ours (a token that orders acceleration-structure builds and traces).
+    /// Something without a handle of ours, such as all acceleration structures together; `state` must outlive the run
+    /// and be kept for the next frame.
+    BufferId importToken(const char* name, ResourceState& state);
+    /// For tests of the compile step: there is no image or buffer behind it.
     ImageId importImage(const char* name, const GraphImageInfo& info, const ResourceState& initial);
     BufferId importBuffer(const char* name, const ResourceState& initial);
 

@@ -15,7 +15,8 @@ struct TriangleGeometry {
     VkDeviceAddress vertices = 0;
     VkDeviceSize vertexStride = 12; // bytes
     uint32_t vertexCount = 0;
-    VkDeviceAddress indices = 0; // 32-bit, three a triangle; 0: vertices are a triangle list
+    VkDeviceAddress indices = 0; // 32-bit, three a triangle
+    bool indexed = true;         // false: every three vertices are a triangle
     uint32_t triangleCount = 0;
     bool opaque = true; // false: any-hit shaders run
 };
@@ -93,7 +94,7 @@ class AccelerationStructure {
 };
 
 /// Builds -> builds and traces: before a top-level build that uses fresh bottom levels, and before the first trace.
-void recordBuildBarrier(VkCommandBuffer commands);
+void recordBuildBarrier(Device& device, VkCommandBuffer commands);
 /// Shader and transfer writes of vertices or instances -> builds, and traces of the last frame -> builds over them.
 void recordBuildInputBarrier(VkCommandBuffer commands);
 

@@ -36,6 +36,7 @@ class BindlessTextures {
     };
     void createSet(uint32_t capacity);
     void write(uint32_t index);
+    void writeAll();
 
     Device& m_device;
     Entry m_fallback;

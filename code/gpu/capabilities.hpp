@@ -38,7 +38,6 @@ struct Capabilities {
     bool shaderInt64 = false;
     bool multiview = false;
     bool swapchain = false;
-    bool pipelineExecutableInfo = false;
 
     float timestampPeriodNs = 0; // nanoseconds a tick; 0: no timestamps on the queue
     uint32_t timestampBits = 0;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gpu/capabilities.hpp"
+#include "gpu/instance.hpp"
 #include "gpu/memory.hpp"
 
 namespace q3rt {
@@ -37,7 +38,7 @@ class Device {
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
-    VkInstance instance() const { return m_instance; }
+    VkInstance instance() const { return m_instance.handle; }
     VkPhysicalDevice physical() const { return m_physical; }
     VkDevice handle() const { return m_device; }
     VkQueue queue() const { return m_queue; }
@@ -65,35 +66,26 @@ class Device {
     void beginLabel(VkCommandBuffer commands, const char* name) const;
     void endLabel(VkCommandBuffer commands) const;
 
-    /// Warnings and errors of the validation layer so far, oldest first; always empty without validation.
-    const std::vector<std::string>& validationMessages() const { return m_messages->texts; }
+    /// Warnings and errors of the validation layer so far, oldest first; always empty without validation. Shared, so
+    /// that what is said at the device's own destruction (leaks) can be read after it.
+    std::shared_ptr<const std::vector<std::string>> validationMessages() const { return m_messages; }
     bool validating() const { return m_validating; }
 
   private:
     friend class FrameRing;
-    struct Messages {
-        std::vector<std::string> texts;
-    };
     struct Retired {
         uint64_t frame; // last frame that may use it
         std::function<void()> destroy;
     };
-    void createInstance(const DeviceOptions& options);
-    void choosePhysical(const DeviceOptions& options);
+    void create(const DeviceOptions& options);
+    void choosePhysical(const std::string& wanted);
+    void chooseQueueFamily();
     void createDevice(const DeviceOptions& options);
     void destroyAll();
     // FrameRing tells where the GPU is: frames are numbered from 1.
-    void noteFrameOpened() { m_frameOpen = true; }
-    void noteFrameSubmitted() {
-        ++m_framesSubmitted;
-        m_frameOpen = false;
-    }
     void noteFramesFinished(uint64_t lastFinished);
-    static VkBool32 onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT,
-                              const VkDebugUtilsMessengerCallbackDataEXT* data, void* user);
 
-    VkInstance m_instance = VK_NULL_HANDLE;
-    VkDebugUtilsMessengerEXT m_messenger = VK_NULL_HANDLE;
+    Instance m_instance;
     VkSurfaceKHR m_surface = VK_NULL_HANDLE;
     VkPhysicalDevice m_physical = VK_NULL_HANDLE;
     VkDevice m_device = VK_NULL_HANDLE;
@@ -103,14 +95,14 @@ class Device {
     VkCommandPool m_immediatePool = VK_NULL_HANDLE;
     Capabilities m_capabilities;
     bool m_validating = false;
-    bool m_debugUtils = false;
-    std::unique_ptr<Messages> m_messages = std::make_unique<Messages>();
+    std::shared_ptr<std::vector<std::string>> m_messages = std::make_shared<std::vector<std::string>>();
     std::unique_ptr<MemoryAllocator> m_memory;
     std::unique_ptr<SamplerCache> m_samplers;
     std::deque<Retired> m_retired; // frame numbers never fall
     uint64_t m_framesSubmitted = 0;
     uint64_t m_framesFinished = 0;
     bool m_frameOpen = false;
+    bool m_recordingImmediate = false; // inside submitAndWait
 };
 
 /// Every device of every installed driver, for `q3rt doctor`. Throws DeviceError if there is no loader or driver.

@@ -24,6 +24,8 @@ class GpuTimers {
 
     /// Reads what the frame last in this slot measured (it has finished) and clears the slot.
     void beginFrame(VkCommandBuffer commands, uint32_t slot);
+    /// The frame's commands will never run: forgets its rows.
+    void abandonFrame() { m_slots[m_slot].names.clear(); }
     /// Rows may nest or follow each other; any number of them. A name used twice makes two rows.
     uint32_t begin(VkCommandBuffer commands, std::string name);
     void end(VkCommandBuffer commands, uint32_t row);

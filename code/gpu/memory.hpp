@@ -3,6 +3,7 @@
 
 #include <list>
 #include <memory>
+#include <vector>
 
 #include "gpu/range_allocator.hpp"
 #include "gpu/vulkan_api.hpp"
@@ -46,8 +47,10 @@ class MemoryAllocator {
     MemoryUse measureUse() const;
 
   private:
-    uint32_t chooseType(uint32_t typeBits, MemoryDomain domain) const;
-    MemoryBlock* addBlock(uint32_t type, VkDeviceSize size, bool linear);
+    /// Memory types that will do, best first.
+    std::vector<uint32_t> rankTypes(uint32_t typeBits, MemoryDomain domain) const;
+    MemoryBlock* addBlock(uint32_t type, VkDeviceSize size, bool linear, VkResult& result);
+    MemoryBlock* growFor(uint32_t type, VkDeviceSize size, bool linear, VkResult& result);
 
     VkDevice m_device;
     bool m_deviceAddress;

@@ -2,6 +2,7 @@
 // What all pipelines share: layout, sets, push constants, specialisation.
 
 #include <initializer_list>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,6 +47,8 @@ class Pipeline {
 
   protected:
     Pipeline(Device& device, VkPipelineBindPoint bindPoint, const PipelineInterface& interface, std::string name);
+    /// Names the pipeline that the derived class has created.
+    void finish();
     void release();
     Device* m_device = nullptr;
     VkPipelineBindPoint m_bindPoint = VK_PIPELINE_BIND_POINT_COMPUTE;
@@ -76,6 +79,7 @@ class StageList {
         VkSpecializationInfo specialization{};
     };
     Device& m_device;
+    std::map<const uint32_t*, VkShaderModule> m_modules; // by address of the code
     std::vector<Stage> m_stages;
     std::vector<VkPipelineShaderStageCreateInfo> m_infos;
 };

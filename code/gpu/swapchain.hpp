@@ -31,7 +31,10 @@ class Swapchain {
   private:
     friend class FrameRing;
     void create(VkExtent2D extent);
+    void fetchImages();
     void destroyImages();
+    void chooseFormat();
+    VkSemaphore makeSemaphore() const;
     void choosePresentMode(int swapInterval);
     VkSemaphore imageReady() const { return m_readySemaphores[m_readyIndex]; }
     VkSemaphore drawn() const { return m_drawnSemaphores[m_current]; }

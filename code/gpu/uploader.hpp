@@ -48,6 +48,9 @@ class Uploader {
         VkDeviceSize offset;
     };
     Staged stage(std::span<const std::byte> bytes);
+    void addImageCopy(GpuImage& target, std::span<const std::byte> texels, const VkImageSubresourceLayers& layers,
+                      VkOffset2D at, VkExtent2D extent);
+    void recordImageCopies(VkCommandBuffer commands);
 
     Device& m_device;
     VkDeviceSize m_chunkBytes;

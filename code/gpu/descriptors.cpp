@@ -1,0 +1,150 @@
+#include "gpu/descriptors.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "gpu/device.hpp"
+
+namespace q3rt {
+namespace {
+
+// Sets a pool holds at least; each further pool of an arena holds twice as many.
+constexpr uint32_t kFirstPoolSets = 64;
+
+} // namespace
+
+DescriptorLayout::DescriptorLayout(Device& device, std::span<const Binding> bindings, const std::string& name)
+    : m_device(&device)
+    , m_bindings(bindings.begin(), bindings.end()) {
+    std::vector<VkDescriptorSetLayoutBinding> list;
+    for (const Binding& binding : bindings)
+        list.push_back({binding.slot, binding.type, binding.count, binding.stages, nullptr});
+    VkDescriptorSetLayoutCreateInfo create{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+    create.bindingCount = static_cast<uint32_t>(list.size());
+    create.pBindings = list.data();
+    vkCheck(vkCreateDescriptorSetLayout(device.handle(), &create, nullptr, &m_handle), "vkCreateDescriptorSetLayout");
+    device.setName(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, reinterpret_cast<uint64_t>(m_handle), name);
+}
+
+DescriptorLayout& DescriptorLayout::operator=(DescriptorLayout&& other) noexcept {
+    if (this == &other) return *this;
+    release();
+    m_device = std::exchange(other.m_device, nullptr);
+    m_handle = std::exchange(other.m_handle, VK_NULL_HANDLE);
+    m_bindings = std::move(other.m_bindings);
+    return *this;
+}
+
+void DescriptorLayout::release() {
+    if (!m_handle) return;
+    m_device->retire(
+        [device = m_device->handle(), handle = m_handle] { vkDestroyDescriptorSetLayout(device, handle, nullptr); });
+    m_handle = VK_NULL_HANDLE;
+}
+
+BoundResource bindStorageBuffer(uint32_t slot, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize range) {
+    return {.slot = slot, .type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, .buffer = {buffer, offset, range}};
+}
+
+BoundResource bindUniformBuffer(uint32_t slot, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize range) {
+    return {.slot = slot, .type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, .buffer = {buffer, offset, range}};
+}
+
+BoundResource bindStorageImage(uint32_t slot, VkImageView view) {
+    return {.slot = slot,
+            .type = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+            .image = {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL}};
+}
+
+BoundResource bindSampledImage(uint32_t slot, VkImageView view, VkSampler sampler, VkImageLayout layout) {
+    return {.slot = slot, .type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, .image = {sampler, view, layout}};
+}
+
+BoundResource bindAccelerationStructure(uint32_t slot, VkAccelerationStructureKHR acceleration) {
+    return {.slot = slot, .type = VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, .acceleration = acceleration};
+}
+
+void writeDescriptors(Device& device, VkDescriptorSet set, std::span<const BoundResource> resources) {
+    std::vector<VkWriteDescriptorSet> writes;
+    std::vector<VkWriteDescriptorSetAccelerationStructureKHR> accelerations(resources.size());
+    writes.reserve(resources.size());
+    for (size_t i = 0; i < resources.size(); ++i) {
+        const BoundResource& resource = resources[i];
+        VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+        write.dstSet = set;
+        write.dstBinding = resource.slot;
+        write.dstArrayElement = resource.element;
+        write.descriptorCount = 1;
+        write.descriptorType = resource.type;
+        write.pBufferInfo = &resource.buffer;
+        write.pImageInfo = &resource.image;
+        if (resource.type == VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR) {
+            accelerations[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR, nullptr, 1,
+                                &resource.acceleration};
+            write.pNext = &accelerations[i];
+        }
+        writes.push_back(write);
+    }
+    vkUpdateDescriptorSets(device.handle(), static_cast<uint32_t>(writes.size()), writes.data(), 0, nullptr);
+}
+
+DescriptorArena::~DescriptorArena() {
+    m_device->retire([device = m_device->handle(), pools = std::move(m_pools)] {
+        for (const VkDescriptorPool pool : pools)
+            vkDestroyDescriptorPool(device, pool, nullptr);
+    });
+}
+
+void DescriptorArena::addPool(const DescriptorLayout& layout) {
+    const uint32_t sets = kFirstPoolSets << std::min<size_t>(m_pools.size(), 10);
+    // Room for the usual kinds, and for the layout that asked whatever it is made of.
+    std::vector<VkDescriptorPoolSize> sizes{{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, sets * 4},
+                                            {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, sets * 2},
+                                            {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, sets * 4},
+                                            {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, sets * 4}};
+    if (m_device->capabilities().accelerationStructure)
+        sizes.push_back({VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, sets});
+    for (const Binding& binding : layout.bindings()) {
+        const auto same =
+            std::find_if(sizes.begin(), sizes.end(), [&](const auto& s) { return s.type == binding.type; });
+        if (same == sizes.end())
+            sizes.push_back({binding.type, binding.count * sets});
+        else
+            same->descriptorCount += binding.count;
+    }
+    VkDescriptorPoolCreateInfo create{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    create.maxSets = sets;
+    create.poolSizeCount = static_cast<uint32_t>(sizes.size());
+    create.pPoolSizes = sizes.data();
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    vkCheck(vkCreateDescriptorPool(m_device->handle(), &create, nullptr, &pool), "vkCreateDescriptorPool");
+    m_pools.push_back(pool);
+}
+
+VkDescriptorSet DescriptorArena::make(const DescriptorLayout& layout, std::span<const BoundResource> resources) {
+    const VkDescriptorSetLayout handle = layout.handle();
+    VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+    allocate.descriptorSetCount = 1;
+    allocate.pSetLayouts = &handle;
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    for (;; ++m_current) {
+        const bool fresh = m_current == m_pools.size();
+        if (fresh) addPool(layout);
+        allocate.descriptorPool = m_pools[m_current];
+        const VkResult result = vkAllocateDescriptorSets(m_device->handle(), &allocate, &set);
+        if (result == VK_SUCCESS) break;
+        // A full pool is passed over; a fresh one that fails is an error.
+        const bool full = result == VK_ERROR_OUT_OF_POOL_MEMORY || result == VK_ERROR_FRAGMENTED_POOL;
+        if (fresh || !full) vkCheck(result, "vkAllocateDescriptorSets");
+    }
+    writeDescriptors(*m_device, set, resources);
+    return set;
+}
+
+void DescriptorArena::reset() {
+    for (const VkDescriptorPool pool : m_pools)
+        vkCheck(vkResetDescriptorPool(m_device->handle(), pool, 0), "vkResetDescriptorPool");
+    m_current = 0;
+}
+
+} // namespace q3rt
