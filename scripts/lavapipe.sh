@@ -1,9 +1,9 @@
 #!/bin/bash
-# Prints the path of a Vulkan ICD file for a software driver with ray tracing, fetching that driver first where it is missing.
+# Prints the path of a Vulkan ICD file for a software driver with ray tracing; fetches that driver where it is missing.
 #
 # Debian 12's own lavapipe (Mesa 22.3) cannot trace rays; bookworm-backports has one that can. Installing it system-wide
-# would disturb the machine's graphics stack, so one file of that package is unpacked into the user's cache, by a private
-# apt configuration (own source list, lists and archives; apt still checks the archive's signature). No root is needed.
+# would disturb the machine's graphics stack, so one file of that package is unpacked into the user's cache, by a
+# private apt configuration (own source list, lists, archives; apt still checks the signature). No root is needed.
 # Debian 13's own driver is good: its ICD file is printed as it is.
 set -euo pipefail
 
@@ -12,7 +12,7 @@ readonly kSystemIcdNewer=/usr/share/vulkan/icd.d/lvp_icd.json
 readonly kKeyring=/usr/share/keyrings/debian-archive-keyring.gpg
 readonly kMirror="${Q3RT_DEBIAN_MIRROR:-http://deb.debian.org/debian}"
 
-fail() { echo "q3rt set-up: $1" >&2; exit 1; }
+fail() { echo "q3rt set-up: $*" >&2; exit 1; }
 
 codename="$(. /etc/os-release && echo "${VERSION_CODENAME:-unknown}")"
 if [ "$codename" != bookworm ]; then
@@ -30,7 +30,8 @@ if [ -e "$icd" ] && (cd "$target" && sha256sum --quiet --check SHA256SUMS) >/dev
   exit 0
 fi
 
-mkdir -p "$(dirname "$target")" 2>/dev/null || fail "cannot create $(dirname "$target"): set XDG_CACHE_HOME to a writable folder"
+mkdir -p "$(dirname "$target")" 2>/dev/null ||
+  fail "cannot create $(dirname "$target"): set XDG_CACHE_HOME to a writable folder"
 [ -e "$kKeyring" ] || fail "$kKeyring is missing: install the package debian-archive-keyring"
 work="$(mktemp -d "$(dirname "$target")/lavapipe.XXXXXX")"
 trap 'rm -rf "$work"' EXIT
@@ -67,7 +68,9 @@ compgen -G "$work/apt/lists/*bookworm-backports_main_binary*Packages*" >/dev/nul
 }
 package="$(ls "$work"/apt/archives/mesa-vulkan-drivers_*.deb)"
 dpkg-deb --fsys-tarfile "$package" | tar -x -C "$work/driver" --wildcards --transform='s,.*/,,' '*/libvulkan_lvp.so' ||
-  fail "$(basename "$package") has no libvulkan_lvp.so: report this with the output of apt-cache policy mesa-vulkan-drivers"
+  fail "$(basename "$package") has no libvulkan_lvp.so: report this with the output of apt-cache policy"
+absent="$(ldd "$work/driver/libvulkan_lvp.so" | awk '/not found/ { printf "%s ", $1 }')"
+[ -z "$absent" ] || fail "the driver needs libraries that are not installed: $absent"
 # A relative path with a slash is looked up beside this file; a bare name would load the system's old driver.
 cat > "$work/driver/lvp_icd.json" <<'JSON'
 {

@@ -4,13 +4,13 @@
 
 # One list that has the same names on Debian 12 and 13. The first three lines build; then what runs; then the game.
 readonly kPackages="git build-essential cmake ninja-build pkg-config ca-certificates
-  libvulkan-dev libvulkan-volk-dev glslang-tools spirv-tools libsdl2-dev libjpeg-dev libstb-dev libglm-dev libminizip-dev
-  zlib1g-dev libzstd-dev nlohmann-json3-dev libcli11-dev libembree-dev libgtest-dev libbenchmark-dev
+  libvulkan-dev libvulkan-volk-dev glslang-tools spirv-tools libsdl2-dev libjpeg-dev libstb-dev libglm-dev
+  libminizip-dev zlib1g-dev libzstd-dev nlohmann-json3-dev libcli11-dev libembree-dev libgtest-dev libbenchmark-dev
   vulkan-validationlayers vulkan-tools xvfb xauth debian-archive-keyring
   ioquake3 openarena openarena-data openarena-088-data openarena-oacmp1"
 
 fail() {
-  echo "q3rt set-up: $1" >&2
+  echo "q3rt set-up: $*" >&2
   exit 1
 }
 
@@ -39,7 +39,8 @@ setUpPackages() {
   "debian 13") packages+=" mesa-vulkan-drivers" && [ "${1:-}" = fuzz ] && packages+=" clang libclang-rt-19-dev" ;;
   *)
     [ -n "${Q3RT_SKIP_PACKAGES:-}" ] && return 0
-    fail "packages can be installed on Debian 12 and 13 only, this is '$release': install the list in scripts/setup.sh by hand and set Q3RT_SKIP_PACKAGES=1"
+    fail "packages can be installed on Debian 12 and 13 only, this is '$release':" \
+      "install the list in scripts/setup.sh by hand and set Q3RT_SKIP_PACKAGES=1"
     ;;
   esac
   [ -n "${Q3RT_SKIP_PACKAGES:-}" ] && return 0
@@ -50,7 +51,7 @@ setUpPackages() {
 
   step "installing packages: $missing"
   if [ "$(id -u)" != 0 ]; then
-    command -v sudo >/dev/null || fail "these packages are missing and need root: as root, run: apt-get install $missing"
+    command -v sudo >/dev/null || fail "packages are missing and need root; as root, run: apt-get install $missing"
     asRoot="sudo"
     sudo -v || fail "sudo was refused; as root, run: apt-get install $missing"
   fi
@@ -58,7 +59,8 @@ setUpPackages() {
   $apt update || fail "the package lists could not be fetched (see above): check the network, then run this again"
   # shellcheck disable=SC2086
   $apt install --no-install-recommends $missing ||
-    fail "packages could not be installed (see above): check the network and the free disk space (1.6 GB), then run this again"
+    fail "packages could not be installed (see above): check the network and the free disk space (1.6 GB)," \
+      "then run this again"
 }
 
 # setUpDriver VARIABLE: exports VARIABLE = ICD file of the ray-tracing software driver.
