@@ -40,14 +40,19 @@ MaterialId findMaterial(const WorldBuild& build, const BspSurface& surface) {
     return 0;
 }
 
-vec2 finiteOrZero(const vec2& st) { return std::isfinite(st.x) && std::isfinite(st.y) ? st : vec2(0.0f); }
+/// Compilers leave garbage in coordinates that nothing uses; beyond this, sums of them would overflow. NaN fails too.
+constexpr float kLargestCoordinate = 1e30f;
+
+vec2 usableOrZero(const vec2& st) {
+    return std::abs(st.x) < kLargestCoordinate && std::abs(st.y) < kLargestCoordinate ? st : vec2(0.0f);
+}
 
 Vertex convertVertex(const BspDrawVertex& source, int colorShift) {
     Vertex vertex{};
     vertex.position = source.position;
     vertex.normal = source.normal;
-    vertex.st = finiteOrZero(source.st);
-    vertex.lightmapSt = finiteOrZero(source.lightmapSt);
+    vertex.st = usableOrZero(source.st);
+    vertex.lightmapSt = usableOrZero(source.lightmapSt);
     vertex.color = packColor(shiftBakedLight(source.color, colorShift));
     return vertex;
 }
