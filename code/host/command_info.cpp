@@ -12,6 +12,7 @@
 #include "host/census.hpp"
 #include "host/commands.hpp"
 #include "host/installation.hpp"
+#include "host/luxel_table.hpp"
 
 namespace q3rt {
 
@@ -20,7 +21,8 @@ namespace {
 struct InfoArguments {
     std::string map;
     GameChoice game;
-    bool json = false;
+    bool all = false, json = false, luxels = false;
+    size_t luxelCount = 3000;
 };
 
 nlohmann::ordered_json toJson(const MapCensus& census) {
@@ -74,6 +76,21 @@ void printText(const MapCensus& c) {
     std::printf("%s\n", c.requirements.empty() ? " nothing beyond opaque lit surfaces" : "");
 }
 
+void printMap(Pk3FileSource& files, const std::string& map, const InfoArguments& arguments) {
+    TextureLibrary textures(files, TextureSettings{});
+    MaterialLibrary materials(files, textures, MaterialSettings{});
+    const auto world = loadWorld(files, "maps/" + map + ".bsp", materials, WorldSettings{});
+    if (arguments.luxels) {
+        printLuxels(map, *world, materials, arguments.luxelCount, arguments.json);
+        return;
+    }
+    const MapCensus census = takeCensus(*world, materials);
+    if (arguments.json)
+        std::printf("%s\n", toJson(census).dump().c_str());
+    else
+        printText(census);
+}
+
 void runInfo(const InfoArguments& arguments) {
     const Installation installation = findInstallation(arguments.game);
     if (installation.archives.empty())
@@ -81,14 +98,13 @@ void runInfo(const InfoArguments& arguments) {
                                       "--basepath and --game",
                                       (installation.dataBase / installation.game).c_str()));
     Pk3FileSource files({installation.dataBase}, {installation.game});
-    TextureLibrary textures(files, TextureSettings{});
-    MaterialLibrary materials(files, textures, MaterialSettings{});
-    const auto world = loadWorld(files, "maps/" + arguments.map + ".bsp", materials, WorldSettings{});
-    const MapCensus census = takeCensus(*world, materials);
-    if (arguments.json)
-        std::printf("%s\n", toJson(census).dump().c_str());
-    else
-        printText(census);
+    if (arguments.luxels && !arguments.json) printLuxelHeader();
+    if (!arguments.all) {
+        printMap(files, arguments.map, arguments);
+        return;
+    }
+    for (const std::string& file : files.list("maps", ".bsp"))
+        printMap(files, file.substr(0, file.size() - 4), arguments);
 }
 
 } // namespace
@@ -97,7 +113,14 @@ void addInfoCommand(CLI::App& app, int& exitCode) {
     CLI::App* command = app.add_subcommand(
         "info", "Count what a map holds (faces, triangles, lights, clusters) and say what it requires of a renderer");
     const auto arguments = std::make_shared<InfoArguments>();
-    command->add_option("--map", arguments->map, "Map name, such as oa_dm1")->required();
+    const auto which = command->add_option_group("maps");
+    which->add_option("--map", arguments->map, "Map name, such as oa_dm1");
+    which->add_flag("--all", arguments->all, "Every map of the game, one after the other");
+    which->require_option(1);
+    command->add_flag("--luxels", arguments->luxels,
+                      "Compare the light of the lights found with the baked lightmap instead (docs/lights.md)");
+    command->add_option("--points", arguments->luxelCount, "Luxels compared a map (default 3000)")
+        ->check(CLI::Range(size_t{10}, size_t{10'000'000}));
     command->add_option("--basepath", arguments->game.basePath, "Folder that holds the game folder");
     command->add_option("--game", arguments->game.game, "Game folder (default baseoa)");
     command->add_flag("--json", arguments->json, "One JSON object instead of text");
