@@ -63,7 +63,10 @@ Device::~Device() { destroyAll(); }
 void Device::create(const DeviceOptions& options) {
     m_validating = options.validation || environment("Q3RT_VALIDATION") == "1";
     m_instance = createInstance({m_validating, options.instanceExtensions, m_messages.get()});
-    if (options.createSurface) m_surface = options.createSurface(m_instance.handle);
+    if (options.createSurface) {
+        m_surface = options.createSurface(m_instance.handle);
+        if (!m_surface) throw DeviceError("the window system made no Vulkan surface for the window: run headless");
+    }
     choosePhysical(options.wanted.empty() ? environment("Q3RT_DEVICE") : options.wanted);
     chooseQueueFamily();
     createDevice(options);

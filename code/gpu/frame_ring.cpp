@@ -52,7 +52,7 @@ VkCommandBuffer FrameRing::begin() {
     m_recording = true;
     m_device.m_frameOpen = true;
     m_frameNumber = m_device.m_framesSubmitted + 1;
-    m_timers.beginFrame(slot.commands, m_slot);
+    m_timers.beginFrame(slot.commands, m_slot, m_frameNumber);
     return slot.commands;
 }
 

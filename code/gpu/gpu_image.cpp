@@ -28,6 +28,18 @@ VkImageView createView(Device& device, VkImage image, const ImageInfo& info, uin
     return view;
 }
 
+/// Vulkan only promises a few formats for each usage.
+void checkFormat(const Device& device, const VkImageCreateInfo& create, const std::string& name) {
+    VkImageFormatProperties properties;
+    const VkResult result = vkGetPhysicalDeviceImageFormatProperties(
+        device.physical(), create.format, create.imageType, create.tiling, create.usage, create.flags, &properties);
+    if (result == VK_ERROR_FORMAT_NOT_SUPPORTED)
+        throw DeviceError(formatText("%s can't make image \"%s\" (format %d, usage 0x%x): choose another device",
+                                     device.capabilities().deviceName.c_str(), name.c_str(),
+                                     static_cast<int>(create.format), create.usage));
+    vkCheck(result, "vkGetPhysicalDeviceImageFormatProperties");
+}
+
 } // namespace
 
 uint32_t countMips(VkExtent2D extent) {
@@ -112,6 +124,7 @@ GpuImage::GpuImage(Device& device, const ImageInfo& info)
     create.usage = info.usage;
     if (info.samples == VK_SAMPLE_COUNT_1_BIT)
         create.usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    checkFormat(device, create, info.name);
     vkCheck(vkCreateImage(device.handle(), &create, nullptr, &m_handle), "vkCreateImage");
     try {
         VkMemoryRequirements needs;

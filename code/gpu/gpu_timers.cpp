@@ -23,12 +23,18 @@ GpuTimers::~GpuTimers() {
         });
 }
 
-void GpuTimers::beginFrame(VkCommandBuffer commands, uint32_t slot) {
+void GpuTimers::beginFrame(VkCommandBuffer commands, uint32_t slot, uint64_t frame) {
     m_slot = slot;
     Slot& current = m_slots[slot];
     collect(current);
+    current.frame = frame;
     for (const VkQueryPool pool : current.pools)
         vkCmdResetQueryPool(commands, pool, 0, kRowsPerPool * 2);
+}
+
+void GpuTimers::collectFrame(uint64_t frame) {
+    for (Slot& slot : m_slots)
+        if (slot.frame == frame) collect(slot);
 }
 
 void GpuTimers::collect(Slot& slot) {
@@ -36,6 +42,7 @@ void GpuTimers::collect(Slot& slot) {
     std::vector<std::string> names = std::exchange(slot.names, {});
     if (names.empty()) return;
     m_results.clear();
+    m_resultsFrame = slot.frame;
     const uint64_t mask = can.timestampBits >= 64 ? ~uint64_t{0} : (uint64_t{1} << can.timestampBits) - 1;
     for (size_t row = 0; row < names.size(); ++row) {
         struct Stamp {

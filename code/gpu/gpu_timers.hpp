@@ -23,7 +23,7 @@ class GpuTimers {
     GpuTimers& operator=(const GpuTimers&) = delete;
 
     /// Reads what the frame last in this slot measured (it has finished) and clears the slot.
-    void beginFrame(VkCommandBuffer commands, uint32_t slot);
+    void beginFrame(VkCommandBuffer commands, uint32_t slot, uint64_t frame);
     /// The frame's commands will never run: forgets its rows.
     void abandonFrame() { m_slots[m_slot].names.clear(); }
     /// Rows may nest or follow each other; any number of them. A name used twice makes two rows.
@@ -31,11 +31,16 @@ class GpuTimers {
     void end(VkCommandBuffer commands, uint32_t row);
     /// Of the newest finished frame, in order of begin(). Empty if the device has no timestamps.
     const std::vector<TimerRow>& results() const { return m_results; }
+    /// The frame that results() are of (FrameRing::frameNumber()); 0: none yet.
+    uint64_t resultsFrame() const { return m_resultsFrame; }
+    /// Reads a finished frame now (FrameRing::wait() for it), such as the last ones of a run.
+    void collectFrame(uint64_t frame);
 
   private:
     struct Slot {
         std::vector<VkQueryPool> pools; // each of kRowsPerPool rows
         std::vector<std::string> names;
+        uint64_t frame = 0;
     };
     void collect(Slot& slot);
     void ensurePool(VkCommandBuffer commands, Slot& slot, size_t pool);
@@ -44,6 +49,7 @@ class GpuTimers {
     std::vector<Slot> m_slots;
     uint32_t m_slot = 0;
     std::vector<TimerRow> m_results;
+    uint64_t m_resultsFrame = 0;
 };
 
 } // namespace q3rt

@@ -136,10 +136,10 @@ Allocation MemoryAllocator::allocate(const VkMemoryRequirements& needs, MemoryDo
         if (block) return handOut(*block, block->ranges.allocate(needs.size, needs.alignment).value());
     }
     const MemoryUse use = measureUse();
-    throw DeviceError(formatText("device memory: %.1f MiB more can't be had (%s; %.1f MiB in use): lower r_picmip's "
-                                 "detail or the resolution, or close other programs",
-                                 static_cast<double>(needs.size) / kMiB, resultName(result),
-                                 static_cast<double>(use.reservedBytes) / kMiB));
+    throw DeviceError(formatText(
+        "device memory: %.1f MiB more can't be had (%s; %.1f MiB in use): raise r_picmip, lower "
+        "the resolution, or close other programs",
+        static_cast<double>(needs.size) / kMiB, resultName(result), static_cast<double>(use.reservedBytes) / kMiB));
 }
 
 void MemoryAllocator::free(const Allocation& allocation) {

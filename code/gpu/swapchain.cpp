@@ -75,6 +75,7 @@ void Swapchain::choosePresentMode(int swapInterval) {
 }
 
 void Swapchain::create(VkExtent2D extent) {
+    m_requested = extent;
     VkSurfaceCapabilitiesKHR surface;
     vkCheck(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(m_device.physical(), m_device.surface(), &surface),
             "vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
@@ -146,6 +147,7 @@ void Swapchain::destroyImages() {
 
 bool Swapchain::acquire(VkExtent2D extent) {
     m_acquired = false;
+    if (extent.width != m_requested.width || extent.height != m_requested.height) m_stale = true;
     // Twice: a swapchain can go out of date between being made and being asked.
     for (int attempt = 0; attempt < 2; ++attempt) {
         if (m_stale) create(extent);

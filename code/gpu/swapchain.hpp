@@ -46,6 +46,7 @@ class Swapchain {
     VkColorSpaceKHR m_colorSpace = VK_COLOR_SPACE_SRGB_NONLINEAR_KHR;
     VkPresentModeKHR m_presentMode = VK_PRESENT_MODE_FIFO_KHR;
     VkExtent2D m_extent{};
+    VkExtent2D m_requested{}; // what the caller last asked for
     std::vector<VkImage> m_images;
     std::vector<VkImageView> m_views;
     std::vector<VkSemaphore> m_readySemaphores; // one a frame in flight and a spare, used in turn

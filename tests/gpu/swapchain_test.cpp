@@ -1,0 +1,57 @@
+// Presentation, on a surface without a display (VK_EXT_headless_surface).
+
+#include "frame/frame_executor.hpp"
+#include "frame/present.hpp"
+#include "gpu/readback.hpp"
+#include "gpu/swapchain.hpp"
+#include "gpu_test.hpp"
+
+namespace q3rt {
+namespace {
+
+VkSurfaceKHR createHeadlessSurface(VkInstance instance) {
+    VkHeadlessSurfaceCreateInfoEXT create{VK_STRUCTURE_TYPE_HEADLESS_SURFACE_CREATE_INFO_EXT};
+    VkSurfaceKHR surface = VK_NULL_HANDLE;
+    vkCheck(vkCreateHeadlessSurfaceEXT(instance, &create, nullptr, &surface), "vkCreateHeadlessSurfaceEXT");
+    return surface;
+}
+
+class SwapchainTest : public GpuTest {
+  protected:
+    DeviceOptions options() override {
+        return {.validation = true,
+                .instanceExtensions = {VK_KHR_SURFACE_EXTENSION_NAME, VK_EXT_HEADLESS_SURFACE_EXTENSION_NAME},
+                .createSurface = createHeadlessSurface};
+    }
+};
+
+TEST_F(SwapchainTest, FramesArePresentedAndTheWindowMayChangeSize) {
+    FrameRing ring(device());
+    FrameExecutor executor(device());
+    for (const int interval : {1, 0, -1}) {
+        Swapchain swapchain(device(), {64, 48}, interval);
+        for (uint32_t frame = 0; frame < 6; ++frame) {
+            const VkExtent2D size{64 + 16 * (frame / 3), 48};
+            OffscreenTarget target(device(), {32, 32});
+            ring.begin();
+            ASSERT_TRUE(swapchain.acquire(size));
+            FrameGraph graph;
+            ImageId picture = graph.importImage("picture", target.image());
+            graph.addPass(
+                "clear", [&](PassBuilder& pass) { picture = pass.write(picture, access::kTransferWrite); },
+                [picture](PassContext& context) {
+                    const VkClearColorValue green{.float32 = {0, 1, 0, 1}};
+                    const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+                    vkCmdClearColorImage(context.commands(), context.image(picture),
+                                         VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &green, 1, &all);
+                });
+            addPresent(graph, picture, swapchain);
+            executor.run(graph, ring);
+            ring.submit(&swapchain);
+            EXPECT_FALSE(swapchain.acquired());
+        }
+    }
+}
+
+} // namespace
+} // namespace q3rt
