@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "baseq3-test/test_maps.hpp"
+#include "formats/pk3.hpp"
+#include "run_program.hpp"
+#include "support/game_data.hpp"
+
+namespace q3rt::test {
+
+namespace {
+
+/// A game folder with the test maps.
+std::filesystem::path makeGameFolder() {
+    const std::filesystem::path base = makeScratchFolder("game");
+    std::filesystem::create_directories(base / "mygame");
+    writePk3(base / "mygame" / "pak0.pk3", buildTestGameFiles());
+    return base;
+}
+
+} // namespace
+
+TEST(Info, CountsTheTestMaps) {
+    const std::string base = makeGameFolder().string();
+    const ProgramResult room =
+        runQ3rt({"info", "--map", squareLightRoom::kName, "--basepath", base, "--game", "mygame", "--json"});
+    ASSERT_EQ(room.exitCode, 0) << room.errors;
+    const auto census = nlohmann::json::parse(room.output);
+    EXPECT_EQ(census["faces"]["planar"], 14);
+    EXPECT_EQ(census["faces"]["drawn"], 14);
+    EXPECT_EQ(census["triangles"]["drawn"], 28);
+    EXPECT_EQ(census["triangles"]["zero_area"], 0);
+    EXPECT_EQ(census["materials"]["missing"], 0);
+    EXPECT_EQ(census["clusters"], 1);
+    EXPECT_EQ(census["lights"]["triangles"], 2);
+    EXPECT_EQ(census["lights"]["emissive_faces"], 1);
+    EXPECT_EQ(census["spawn_points"], 2);
+    EXPECT_TRUE(census["requires"].empty());
+
+    const ProgramResult corridor =
+        runQ3rt({"info", "--map", threeClusterCorridor::kName, "--basepath", base, "--game", "mygame", "--json"});
+    ASSERT_EQ(corridor.exitCode, 0) << corridor.errors;
+    const auto lights = nlohmann::json::parse(corridor.output)["lights"];
+    EXPECT_EQ(lights["triangles"], 6);
+    // The outer clusters see 4 of the 6 triangles, the middle one all.
+    EXPECT_NEAR(lights["triangles_seen_by_a_cluster"], (4 + 6 + 4) / 3.0, 1e-9);
+}
+
+TEST(Info, BadInputIsOneLine) {
+    const std::string base = makeGameFolder().string();
+    ProgramResult result = runQ3rt({"info", "--map", "absent", "--basepath", base, "--game", "mygame"});
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_TRUE(result.saysInOneLine("absent")) << result.errors;
+    result = runQ3rt({"info", "--map", "oa_dm1", "--basepath", base, "--game", "nogame"});
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_TRUE(result.saysInOneLine("nogame")) << result.errors;
+    EXPECT_EQ(runQ3rt({"info"}).exitCode, 2);
+}
+
+TEST(Info, CountsAMapOfTheGame) {
+    Q3RT_OPEN_GAME_DATA_OR_SKIP(files);
+    const ProgramResult result = runQ3rt({"info", "--map", "oa_shouse", "--json"});
+    ASSERT_EQ(result.exitCode, 0) << result.errors;
+    const auto census = nlohmann::json::parse(result.output);
+    EXPECT_EQ(census["faces"]["planar"], 1478);
+    EXPECT_EQ(census["faces"]["patch"], 279);
+    EXPECT_EQ(census["faces"]["flare"], 18);
+    EXPECT_EQ(census["clusters"], 897);
+    EXPECT_EQ(census["lightmap_pages"], 16);
+    EXPECT_EQ(census["lights"]["suns"], 1);
+    EXPECT_EQ(census["requires"]["sky"], 5);
+}
+
+TEST(Doctor, ReportsWhatIsThere) {
+    const ProgramResult result = runQ3rt({"doctor", "--json"});
+    const auto report = nlohmann::json::parse(result.output);
+    EXPECT_EQ(result.exitCode, report["playable"] ? 0 : 1);
+    EXPECT_GE(report["checks"].size(), 7u);
+    for (const auto& check : report["checks"])
+        EXPECT_FALSE(check["finding"] == "problem" && check["remedy"] == "") << check;
+}
+
+TEST(Doctor, MissingThingsHaveRemedies) {
+    const std::filesystem::path empty = makeScratchFolder("empty");
+    ProgramResult result = runQ3rt({"doctor", "--basepath", empty.string()});
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_NE(result.output.find("no pk3 archives"), std::string::npos) << result.output;
+    EXPECT_NE(result.output.find("apt-get install openarena-data"), std::string::npos) << result.output;
+
+    result = runQ3rt({"doctor"}, {"VK_DRIVER_FILES=/nonexistent.json", "VK_ADD_DRIVER_FILES="});
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_NE(result.output.find("problem  Vulkan"), std::string::npos) << result.output;
+
+    writeFile(empty / "baseoa" / "damaged.pk3", std::vector<std::byte>(1000));
+    result = runQ3rt({"doctor", "--basepath", empty.string()});
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_NE(result.output.find("damaged.pk3"), std::string::npos) << result.output;
+
+    result = runQ3rt({"doctor", "--out", "/proc/nowhere"});
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_NE(result.output.find("can't be written"), std::string::npos) << result.output;
+}
+
+} // namespace q3rt::test

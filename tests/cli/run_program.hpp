@@ -1,0 +1,26 @@
+#pragma once
+// Runs build/q3rt as a user would.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace q3rt::test {
+
+struct ProgramResult {
+    int exitCode = -1; ///< -1: ended by a signal
+    std::string output, errors;
+
+    /// The error text is one line that holds `part`.
+    bool saysInOneLine(const std::string& part) const;
+};
+
+/// `environment` entries are NAME=value; an empty value unsets.
+ProgramResult runQ3rt(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {});
+
+/// A fresh empty folder of this process, removed at exit.
+std::filesystem::path makeScratchFolder(const std::string& name);
+
+void writeFile(const std::filesystem::path& path, const std::vector<std::byte>& bytes);
+
+} // namespace q3rt::test
