@@ -130,7 +130,9 @@ TextureId TextureLibrary::addLightmap(int page, const uint8_t* rgb) {
     level.rgba.resize(kSize * kSize * 4);
     const int shift = m_settings.mapOverbrightBits - m_settings.overbrightBits;
     for (size_t i = 0; i < kSize * kSize; ++i) {
-        const U8vec4 color = shiftBakedLight({rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2], 255}, shift);
+        const uint8_t* raw = rgb + 3 * i;
+        const U8vec4 color =
+            m_settings.lightmapIntensity ? intensityColor(raw) : shiftBakedLight({raw[0], raw[1], raw[2], 255}, shift);
         for (int k = 0; k < 4; ++k)
             level.rgba[4 * i + static_cast<size_t>(k)] = color[k];
     }

@@ -47,6 +47,7 @@ struct TextureSettings {
     float gamma = 1.0f, intensity = 1.0f;
     bool softwareGamma = true; ///< gamma is baked into mip-mapped textures (no hardware gamma)
     float greyscale = 0.0f;
+    bool lightmapIntensity = false; ///< r_lightmap 2: pages show their intensity as a hue
     int maxSize = 4096;
 };
 

@@ -165,6 +165,16 @@ std::vector<MipLevel> buildTextureLevels(MipLevel image, TextureFlags flags, con
     return levels;
 }
 
+U8vec4 intensityColor(const uint8_t* rgb) {
+    constexpr float kValue = 0.5f, kSextants = 5;
+    const float intensity = std::min(1.0f, (0.33f * rgb[0] + 0.685f * rgb[1] + 0.063f * rgb[2]) / 255.0f);
+    const float hue = intensity * kSextants, sextant = std::floor(hue);
+    const float falling = kValue * (1 - (hue - sextant)), rising = kValue * (hue - sextant);
+    const vec3 colors[6] = {{kValue, rising, 0},  {falling, kValue, 0}, {0, kValue, rising},
+                            {0, falling, kValue}, {rising, 0, kValue},  {kValue, 0, falling}};
+    return {U8vec4(vec4(colors[static_cast<int>(sextant)] * 255.0f, 255.0f))};
+}
+
 vec3 averageColor(const MipLevel& level) {
     uint64_t sum[3] = {0, 0, 0};
     for (size_t i = 0; i + 3 < level.rgba.size(); i += 4)

@@ -20,6 +20,9 @@ std::array<uint8_t, 256> buildGammaTable(float gamma, int overbrightBits);
 /// Mean of rgb, [0, 1].
 vec3 averageColor(const MipLevel& level);
 
+/// Intensity of raw lightmap bytes as a hue from red over green and blue, saturation 1, value 0.5 (r_lightmap 2).
+U8vec4 intensityColor(const uint8_t* rgb);
+
 /// Pixels of the built-in textures.
 MipLevel makeDefaultImage();
 MipLevel makeSolidImage(int size, U8vec4 color);

@@ -220,6 +220,8 @@ TEST(StageGlsl, CombineAndAlphaTest) {
     EXPECT_EQ(glsl::combineTexels(kCombineMultiply, color, t0, t1), t0 * t1 * color);
     const vec4 sum = glsl::combineTexels(kCombineAdd, color, t0, t1);
     EXPECT_EQ(sum, vec4(1, 1, 1, 0.25f)) << "1.1, 1.3, 1.15 saturate; alphas multiply";
+    const vec4 half(127.0f / 255);
+    EXPECT_EQ(glsl::combineTexels(kCombineMultiply, half, vec4(1), vec4(1)), half) << "one colour for both textures";
     const float below = 127.0f / 255, above = 128.0f / 255;
     EXPECT_FALSE(glsl::passesAlphaTest(kTestGreaterEqual128, below));
     EXPECT_TRUE(glsl::passesAlphaTest(kTestGreaterEqual128, above));

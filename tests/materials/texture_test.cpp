@@ -226,6 +226,20 @@ TEST(Texture, LightmapPagesAreShiftedAndNamed) {
     EXPECT_EQ(textures.get(id).levels.size(), 1u);
 }
 
+TEST(Texture, LightmapIntensityAsHue) {
+    MemoryFiles files;
+    TextureSettings settings;
+    settings.lightmapIntensity = true;
+    TextureLibrary textures(files, settings);
+    std::vector<uint8_t> page(128 * 128 * 3, 0);
+    std::fill_n(page.begin() + 3, 3, uint8_t{255}); // 1.078, cut at 1: the last sextant begins
+    page[7] = 149;                                  // green alone: 0.400, two sextants in
+    const MipLevel& level = textures.get(textures.addLightmap(0, page.data())).levels[0];
+    EXPECT_EQ(texel(level, 0, 0), U8vec4(127, 0, 0, 255));
+    EXPECT_EQ(texel(level, 1, 0), U8vec4(127, 0, 127, 255));
+    EXPECT_EQ(texel(level, 2, 0), U8vec4(0, 127, 0, 255));
+}
+
 TEST(Texture, ScratchPixelsChangeTheVersionAndLoseTheirAlpha) {
     MemoryFiles files;
     TextureLibrary textures(files, {});
