@@ -103,6 +103,12 @@ GraphicsPipeline::GraphicsPipeline(Device& device, const GraphicsPipelineInfo& i
     finish();
 }
 
+void GraphicsPipeline::warmUp(VkCommandBuffer commands) const {
+    const VkRect2D nowhere{};
+    vkCmdSetScissor(commands, 0, 1, &nowhere);
+    vkCmdDraw(commands, 3, 1, 0, 0);
+}
+
 void beginRendering(VkCommandBuffer commands, VkExtent2D extent, std::span<const Attachment> colors,
                     const Attachment& depth) {
     std::vector<VkRenderingAttachmentInfoKHR> colorInfos;

@@ -51,6 +51,10 @@ class GraphicsPipeline : public Pipeline {
   public:
     GraphicsPipeline() = default;
     GraphicsPipeline(Device& device, const GraphicsPipelineInfo& info);
+    /// lavapipe compiles at the first draw: one triangle under an empty scissor moves that to loading. Inside
+    /// beginRendering(), with everything bound as for a real draw (vertex buffers of at least three vertices). Leaves
+    /// the scissor empty.
+    void warmUp(VkCommandBuffer commands) const;
 };
 
 /// An attachment of beginRendering(). The image must be in the attachment layout (the frame graph sees to it).
