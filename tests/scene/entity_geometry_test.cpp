@@ -1,5 +1,7 @@
 // buildViewGeometry: what is in a view, and where (spec of models 2, 4, 7).
 
+#include <tuple>
+
 #include <gtest/gtest.h>
 
 #include "md3_builder.hpp"
@@ -251,6 +253,28 @@ TEST_F(EntityGeometryTest, DeformedWorldSurfacesAreCopiedIntoTheirRecord) {
     EXPECT_EQ(m_geometry.indices[3], m_geometry.surfaces[1].firstVertex);
     m_view.flags = viewFlag::kNoWorldModel;
     EXPECT_EQ(build(true).surfaces.size(), 1u) << "brush models also show without the world";
+}
+
+TEST_F(EntityGeometryTest, SteadyFrameKeepsItsMemory) {
+    add(EntityKind::Model);
+    add(EntityKind::Model).customShader = m_libraries->materials.registerHandle("a/moving", lightmapContext::kNone);
+    add(EntityKind::Model).model = m_models->registerModel("*2");
+    for (const EntityKind kind :
+         {EntityKind::Sprite, EntityKind::Beam, EntityKind::RailCore, EntityKind::RailRings, EntityKind::Lightning}) {
+        add(kind).oldOrigin = {300, 20, 10};
+    }
+    m_frame.lights.push_back({vec3(0, 0, 100), 50, vec3(1), false});
+    m_view.lightCount = 1;
+    build(true);
+    const auto memory = [&] {
+        return std::tuple(m_geometry.entities.data(), m_geometry.surfaces.data(), m_geometry.vertices.data(),
+                          m_geometry.indices.data(), m_geometry.batchVertices.data(), m_geometry.batchIndices.data(),
+                          m_geometry.recordOfInlineModel.data());
+    };
+    const auto before = memory();
+    build(true);
+    EXPECT_EQ(memory(), before);
+    EXPECT_EQ(m_geometry.entities.size(), 9u);
 }
 
 } // namespace
