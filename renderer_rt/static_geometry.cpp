@@ -98,7 +98,7 @@ void StaticGeometry::build(Device& device, uint32_t vertexCount) {
                 device, {&geometry, 1}, {.preference = BuildPreference::FastTrace, .name = "world"});
             part.structure.recordBuild(commands, scratch, {&geometry, 1});
         }
-        recordBuildBarrier(commands);
+        recordBuildBarrier(device, commands);
     });
 }
 

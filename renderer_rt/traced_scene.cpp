@@ -151,9 +151,9 @@ void TracedScene::recordBuilds(VkCommandBuffer commands, const TracedView& view)
     recordBuildInputBarrier(commands);
     for (const TracedView::Build& build : view.builds)
         build.structure->recordBuild(commands, scratch, {&build.geometry, 1});
-    recordBuildBarrier(commands);
+    recordBuildBarrier(m_context.device(), commands);
     view.top->recordBuildTop(commands, scratch, view.topInstances.address, view.instanceCount);
-    recordBuildBarrier(commands);
+    recordBuildBarrier(m_context.device(), commands);
 }
 
 } // namespace q3rt

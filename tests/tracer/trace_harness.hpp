@@ -1,0 +1,41 @@
+#pragma once
+// The renderer module in the headless engine: a map, a camera, and the picture or its radiance.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "formats/image.hpp"
+#include "host/headless/headless_engine.hpp"
+#include "math/vector.hpp"
+
+namespace q3rt::test {
+
+/// What the harness draws: eye in qu, angles in degrees (pitch positive looks down, as the engine's).
+struct Camera {
+    vec3 eye{0};
+    float pitch = 0, yaw = 0;
+    float fovX = 90;
+    int timeMs = 0;
+};
+
+class TraceHarness {
+  public:
+    /// `files` outlives this. Throws if the module can't start (no device).
+    TraceHarness(FileSource& files, const std::filesystem::path& module, int width, int height);
+    void set(const std::string& cvar, const std::string& value) { m_engine.cvars.preset(cvar, value); }
+    void loadMap(const std::string& name);
+    /// Draws the view `frames` times.
+    void draw(const Camera& camera, int frames);
+    /// The last of `frames` draws as shown.
+    HostFrame picture(const Camera& camera, int frames);
+    /// Radiance after `frames` draws (rt_accumulate decides whether it is their mean).
+    FloatImage radiance(const Camera& camera, int frames);
+    HeadlessEngine& engine() { return m_engine; }
+
+  private:
+    HeadlessEngine m_engine;
+    int m_width, m_height;
+};
+
+} // namespace q3rt::test
