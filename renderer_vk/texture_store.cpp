@@ -15,13 +15,14 @@ TextureStore::TextureStore(Device& device)
     const std::array<uint8_t, 4> white = {255, 255, 255, 255};
     uploader.upload(m_fallback, std::as_bytes(std::span(white)));
     uploader.flush();
-    reset();
+    m_bindless = std::make_unique<BindlessTextures>(m_device, m_fallback.view(), m_device.samplers().find({}));
 }
 
 void TextureStore::reset() {
-    m_bindless.reset();
+    // The array and its layout stay, for pipelines refer to them; its slots are filled anew in order.
+    for (uint32_t slot = 0; slot < m_slotCount; ++slot)
+        m_bindless->replace(slot, m_fallback.view(), m_device.samplers().find({}));
     m_entries.clear();
-    m_bindless = std::make_unique<BindlessTextures>(m_device, m_fallback.view(), m_device.samplers().find({}));
 }
 
 VkSampler TextureStore::samplerOf(const Texture& texture) const {
@@ -60,7 +61,12 @@ void TextureStore::follow(const TextureLibrary& library, const TextureFilter& fi
         if (id == m_entries.size()) {
             m_entries.emplace_back();
             create(texture, m_entries[id], uploader);
-            m_bindless->add(m_entries[id].image->view(), samplerOf(texture));
+            if (id < m_slotCount) {
+                m_bindless->replace(id, m_entries[id].image->view(), samplerOf(texture));
+            } else {
+                m_bindless->add(m_entries[id].image->view(), samplerOf(texture));
+                ++m_slotCount;
+            }
             continue;
         }
         Entry& entry = m_entries[id];

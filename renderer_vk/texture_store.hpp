@@ -43,6 +43,7 @@ class TextureStore {
     GpuImage m_fallback;
     std::unique_ptr<BindlessTextures> m_bindless;
     std::vector<Entry> m_entries;
+    uint32_t m_slotCount = 0; ///< of the bindless array that were ever used; slot = TextureId
 };
 
 } // namespace q3rt

@@ -93,6 +93,14 @@ TEST(RasterDraw, MapIsDrawnWithoutValidationMessages) {
     } catch (const DeviceError& error) {
         GTEST_SKIP() << "no Vulkan device: " << error.what();
     }
+    // As the engine does it: a menu first, then everything anew for the map.
+    renderer.endRegistration();
+    renderer.beginFrame(0);
+    renderer.drawPicture(0, 0, kWidth, kHeight, 0, 0, 1, 1, renderer.registerShader("menuback", false));
+    renderer.endFrame();
+    renderer.shutdownRegistration();
+    renderer.shutdownRegistration();
+    renderer.beginRegistration();
     const char* map = std::getenv("Q3RT_TEST_MAP");
     renderer.loadWorld(map ? map : "maps/oa_dm1.bsp");
     const int shader = renderer.registerShader("gfx/2d/bigchars", false);
