@@ -50,7 +50,8 @@ struct BspBrushSide {
 struct BspDrawVertex {
     vec3 position{0};
     vec2 st{0};
-    vec2 lightmapSt{0}; ///< may be NaN or garbage on vertex-lit surfaces (trap T2); made 0 by the parser where not finite
+    vec2 lightmapSt{
+        0}; ///< may be NaN or garbage on vertex-lit surfaces (trap T2); made 0 by the parser where not finite
     vec3 normal{0};
     U8vec4 color{0};
 };
@@ -81,7 +82,8 @@ struct Bsp {
     std::string entities;
     std::vector<BspShader> shaders;
     std::vector<Plane> planes;
-    std::vector<BspNode> nodes;
+    std::vector<BspNode>
+        nodes; ///< [0] is the root of a tree (checked); it may be as deep as it has nodes: don't recurse
     std::vector<BspLeaf> leafs;
     std::vector<int> leafSurfaces;
     std::vector<int> leafBrushes;

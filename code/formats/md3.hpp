@@ -27,7 +27,8 @@ struct Md3Surface {
     std::vector<std::string> shaders;
     std::vector<uint32_t> indices; ///< triangles
     std::vector<vec2> st;
-    /// Frame-major: vertex v of frame f is [f * vertexCount + v]. Positions in qu, normals decoded with the /1023 sine table.
+    /// Frame-major: vertex v of frame f is [f * vertexCount + v]. Positions in qu, normals decoded with the /1023 sine
+    /// table.
     std::vector<vec3> positions;
     std::vector<vec3> normals;
     size_t vertexCount = 0;

@@ -26,12 +26,13 @@ struct ScriptDefinition {
     std::string name; ///< as written
     std::string file;
     int line = 0;
-    std::vector<ScriptLine> lines;    ///< general keywords
+    std::vector<ScriptLine> lines; ///< general keywords
     std::vector<ScriptStage> stages;
     /// Stages and general lines interleave; `stageAfterLine[i]` = how many general lines came before stage i
     /// (image flags depend on which of nomipmaps/nopicmip stood earlier in the text).
     std::vector<size_t> stageAfterLine;
-    bool failed = false; ///< the engine's parser would have given up here: stages so far are kept, the shader is default
+    bool failed =
+        false; ///< the engine's parser would have given up here: stages so far are kept, the shader is default
     std::string failure; ///< why
 };
 
@@ -39,7 +40,8 @@ struct ScriptDefinition {
 using ScriptReport = std::function<void(std::string_view file, int line, std::string_view what)>;
 
 /// Parses one script file. An unbalanced file gives no definitions at all (the engine drops the whole file).
-std::vector<ScriptDefinition> parseShaderScript(std::string_view text, std::string_view file, const ScriptReport& report);
+std::vector<ScriptDefinition> parseShaderScript(std::string_view text, std::string_view file,
+                                                const ScriptReport& report);
 
 /// The look-up that content relies on: files are added in the file system's listing order (highest priority pak first);
 /// the file listed last wins between files, the first definition wins within one.
@@ -56,7 +58,8 @@ class ScriptLibrary {
     std::unordered_map<std::string, ScriptDefinition> m_byName; ///< key lower case
 };
 
-/// One token of the engine's tokeniser (quotes, // and block comments); nullopt at the end. Advances `text`, counts lines.
+/// One token of the engine's tokeniser (quotes, // and block comments); nullopt at the end. Advances `text`, counts
+/// lines.
 std::optional<std::string> nextScriptToken(std::string_view& text, int& line, bool stayOnLine);
 
 /// C atof as the engine uses it: the leading number, 0 if none. Never NaN or infinite.

@@ -329,7 +329,15 @@ TEST(GameData, TheLowestArchiveWinsADuplicateShader) {
     const ScriptDefinition* tinyLight = library.find("textures/evil8_lights/e8tinylight");
     ASSERT_TRUE(tinyLight);
     EXPECT_EQ(tinyLight->file, "scripts/evil8.shader");
-    EXPECT_EQ(files->findOrigin(tinyLight->file)->container.filename(), "pak0.pk3");
+    const auto origin = files->findOrigin(tinyLight->file);
+    ASSERT_TRUE(origin);
+    EXPECT_EQ(origin->container.filename(), "pak0.pk3");
+}
+
+/// Does the engine take `name` from this archive?
+bool isWinningCopy(Pk3FileSource& files, const std::string& name, const Pk3& archive) {
+    const auto origin = files.findOrigin(name);
+    return origin && origin->container == archive.path();
 }
 
 TEST(GameData, AllModelsAndSkinsParse) {
@@ -338,7 +346,7 @@ TEST(GameData, AllModelsAndSkinsParse) {
     for (const Pk3* archive : files->archives()) {
         for (size_t i = 0; i < archive->entries().size(); ++i) {
             const std::string name = toLowerAscii(archive->entries()[i].name);
-            if (files->findOrigin(name)->container != archive->path()) continue;
+            if (!isWinningCopy(*files, name, *archive)) continue;
             if (name.ends_with(".skin")) {
                 parseSkin(asText(archive->read(i)));
                 ++skins;
@@ -371,7 +379,7 @@ TEST(GameData, AllImagesDecode) {
             const size_t dot = std::min(name.rfind('.'), name.size());
             const std::string extension = name.substr(dot);
             if (extension != ".tga" && extension != ".jpg" && extension != ".png" && extension != ".pcx") continue;
-            if (files->findOrigin(name)->container != archive->path()) continue;
+            if (!isWinningCopy(*files, name, *archive)) continue;
             try {
                 const Image image = decodeImage(archive->read(i), name);
                 EXPECT_EQ(image.rgba.size(), static_cast<size_t>(image.width) * static_cast<size_t>(image.height) * 4);
