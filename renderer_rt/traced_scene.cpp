@@ -111,9 +111,11 @@ void TracedScene::makeInstances(const ViewGeometry& geometry, TracedView& view) 
         for (int row = 0; row < 3; ++row)
             for (int column = 0; column < 4; ++column)
                 rows[row][column] = transform[column][row];
-        // Only the solid class asks the tracer to drop back faces: the other classes decide for themselves.
-        const VkGeometryInstanceFlagsKHR flags =
-            source.surfaceClass == SurfaceClass::Solid ? 0 : VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
+        // The engine shows clockwise triangles, the tracer calls the others front faces. Only the solid class asks for
+        // culling: the other classes decide for themselves.
+        const VkGeometryInstanceFlagsKHR flags = source.surfaceClass == SurfaceClass::Solid
+                                                     ? VK_GEOMETRY_INSTANCE_TRIANGLE_FLIP_FACING_BIT_KHR
+                                                     : VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
         instances.push_back(makeInstance(bottom, rows, static_cast<uint32_t>(i), source.mask, 0, flags));
     }
     view.instanceCount = static_cast<uint32_t>(instances.size());

@@ -24,6 +24,49 @@ vec4 sampleFiltered(TextureUnitState unit, VertexIn vertex, VertexIn vertexX, Ve
     return sampleUnit(unit, st, unitCoordinates(unit, vertexX, eye) - st, unitCoordinates(unit, vertexY, eye) - st);
 }
 
+// Part by part: copying whole stages would fetch their four tcMods for every pixel, and few stages have any.
+TextureUnitState loadUnit(StageTable stages, uint stage, uint unit)
+{
+    TextureUnitState result;
+    result.coord = stages.at[stage].unit[unit].coord;
+    result.texture = stages.at[stage].unit[unit].texture;
+    result.clamped = stages.at[stage].unit[unit].clamped;
+    result.isLightmap = stages.at[stage].unit[unit].isLightmap;
+    result.modCount = stages.at[stage].unit[unit].modCount;
+    if (result.coord == kCoordVector) {
+        result.vectorS = stages.at[stage].unit[unit].vectorS;
+        result.vectorT = stages.at[stage].unit[unit].vectorT;
+    }
+    for (uint i = 0u; i < kMaxTexMods; ++i)
+        if (i < result.modCount)
+            result.mods[i] = stages.at[stage].unit[unit].mods[i];
+    return result;
+}
+
+StageState loadStage(uint stage)
+{
+    StageTable stages = StageTable(rtFrame.stages);
+    StageState result;
+    result.color = stages.at[stage].color;
+    result.rgbGen = stages.at[stage].rgbGen;
+    result.alphaGen = stages.at[stage].alphaGen;
+    result.combine = stages.at[stage].combine;
+    result.bakedLight = stages.at[stage].bakedLight;
+    result.sourceBlend = stages.at[stage].sourceBlend;
+    result.destinationBlend = stages.at[stage].destinationBlend;
+    result.blended = stages.at[stage].blended;
+    result.alphaTest = stages.at[stage].alphaTest;
+    result.fogFade = stages.at[stage].fogFade;
+    result.portalRange = stages.at[stage].portalRange;
+    result.depthEqual = stages.at[stage].depthEqual;
+    result.depthWrite = stages.at[stage].depthWrite;
+    result.unit[0] = loadUnit(stages, stage, 0u);
+    result.unit[1].isLightmap = 0u;
+    if (result.combine != kCombineSingle)
+        result.unit[1] = loadUnit(stages, stage, 1u);
+    return result;
+}
+
 EntityIn entityInputs(RtEntity entity)
 {
     EntityIn inputs;
@@ -39,7 +82,7 @@ AffineColor addStages(AffineColor color, uint first, uint count, VertexIn vertex
                       EntityIn entity, float density)
 {
     for (uint i = 0u; i < count; ++i) {
-        StageState stage = StageTable(rtFrame.stages).at[first + i];
+        StageState stage = loadStage(first + i);
         vec4 texel0 = sampleFiltered(stage.unit[0], vertex, vertexX, vertexY, entity.eye);
         vec4 texel1 = stage.combine != kCombineSingle
                           ? sampleFiltered(stage.unit[1], vertex, vertexX, vertexY, entity.eye)
@@ -100,7 +143,7 @@ bool isCovered(SceneTriangle triangle, RtSurface surface, vec2 barycentric)
                                c0 + (c1 - c0) * barycentric.x + (c2 - c0) * barycentric.y);
     EntityIn entity = entityInputs(EntityTable(rtFrame.entities).at[triangle.entity]);
     for (uint i = 0u; i < surface.stageCount; ++i) {
-        StageState stage = StageTable(rtFrame.stages).at[surface.firstStage + i];
+        StageState stage = loadStage(surface.firstStage + i);
         if (stage.blended != 0u || stage.depthEqual != 0u)
             continue;
         vec4 texel0 = sampleUnit(stage.unit[0], unitCoordinates(stage.unit[0], vertex, entity.eye), vec2(0.0), vec2(0.0));
