@@ -13,6 +13,9 @@ namespace {
 /// A chunk is about a MiB, or one frame if that is longer. A frame with a full-size cinematic stays far below this.
 constexpr uint64_t kMostRawBytes = uint64_t{1} << 30;
 
+/// Frame numbers stay in an int.
+constexpr uint32_t kMostFrames = 1u << 30;
+
 uint32_t checksum(const void* data, size_t bytes) {
     return static_cast<uint32_t>(crc32_z(0, static_cast<const Bytef*>(data), bytes));
 }
@@ -83,9 +86,6 @@ void Recording::readTables(uint64_t indexOffset) {
     if (index.header.kind != TraceChunk::Index) fail("its index is missing");
     size_t at = 0;
     Decoder(index.raw, at, m_name)(m_index);
-    uint32_t worldFrames = 0;
-    for (const TraceIndexEntry& entry : m_index)
-        m_numbers.push_back(entry.isLoading ? -1 : static_cast<int>(worldFrames++));
     // Files and Info stand between the events and the index: walk the chunks to them.
     bool infoFound = false;
     for (uint64_t offset = sizeof(TraceHeader); offset < indexOffset;) {
@@ -106,7 +106,11 @@ void Recording::readTables(uint64_t indexOffset) {
         }
         offset += sizeof header + header.storedBytes;
     }
-    if (!infoFound || m_info.frameCount != worldFrames) fail("its parts do not fit together");
+    uint32_t worldFrames = 0;
+    for (const TraceIndexEntry& entry : m_index)
+        m_numbers.push_back(entry.isLoading ? -1 : static_cast<int>(m_info.firstFrame + worldFrames++));
+    if (!infoFound || m_info.frameCount != worldFrames || m_info.firstFrame > kMostFrames)
+        fail("its parts do not fit together");
 }
 
 Recording::Frame Recording::readFrame(size_t index) {

@@ -68,6 +68,7 @@ struct TraceInfo {
     std::string map;      ///< of the last LoadWorld: "maps/x.bsp"
     std::string renderer; ///< glconfig's renderer string of the recorded module
     int32_t width = 0, height = 0;
+    uint32_t firstFrame = 0; ///< number of the first world frame kept: a recording may be a stretch of a demo
     uint32_t frameCount = 0, loadingFrameCount = 0;
     template <class Archive>
     void fields(Archive& a) {
@@ -75,6 +76,7 @@ struct TraceInfo {
         a(renderer);
         a(width);
         a(height);
+        a(firstFrame);
         a(frameCount);
         a(loadingFrameCount);
     }

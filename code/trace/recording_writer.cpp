@@ -46,6 +46,7 @@ void RecordingWriter::write(const void* data, size_t bytes) {
 }
 
 void RecordingWriter::add(TraceEvent event) {
+    m_frameEvents.emplace_back(m_events.size(), changesState(event));
     encodeEvent(event, m_events);
     noteEvent(event);
     if (std::holds_alternative<event::EndFrame>(event)) closeFrame();
@@ -69,12 +70,37 @@ void RecordingWriter::noteEvent(const TraceEvent& event) {
     }
 }
 
+void RecordingWriter::keepStretch(uint32_t first, uint32_t count) {
+    m_first = m_info.firstFrame = first;
+    m_count = count;
+}
+
+/// Takes the drawing events out of the open frame.
+void RecordingWriter::dropDrawing() {
+    size_t kept = m_frameStart;
+    for (size_t i = 0; i < m_frameEvents.size(); ++i) {
+        const auto [start, isKept] = m_frameEvents[i];
+        const size_t end = i + 1 < m_frameEvents.size() ? m_frameEvents[i + 1].first : m_events.size();
+        if (!isKept) continue;
+        std::memmove(m_events.data() + kept, m_events.data() + start, end - start);
+        kept += end - start;
+    }
+    m_events.resize(kept);
+}
+
 void RecordingWriter::closeFrame() {
+    const bool isWorld = m_worldSeen;
+    const uint32_t number = m_worldFrames;
+    m_worldFrames += isWorld;
+    const bool isKept = number >= m_first && (m_count == 0 || number - m_first < m_count);
+    if (isWorld && !isKept) dropDrawing();
+    m_frameEvents.clear();
+    if (m_events.size() == m_frameStart) return;
     TraceIndexEntry entry;
     entry.offset = static_cast<uint32_t>(m_frameStart);
     entry.bytes = static_cast<uint32_t>(m_events.size() - m_frameStart);
-    entry.isLoading = !m_worldSeen;
-    ++(m_worldSeen ? m_info.frameCount : m_info.loadingFrameCount);
+    entry.isLoading = !isWorld || !isKept;
+    ++(entry.isLoading ? m_info.loadingFrameCount : m_info.frameCount);
     m_index.push_back(entry);
     m_frameStart = m_events.size();
     if (m_events.size() >= kChunkBytes) writeEvents();
@@ -88,6 +114,8 @@ void RecordingWriter::writeEvents() {
     const uint64_t offset = writeChunk(TraceChunk::Events, m_events);
     for (; m_firstPending < m_index.size(); ++m_firstPending)
         m_index[m_firstPending].chunkOffset = offset;
+    for (auto& [start, isKept] : m_frameEvents)
+        start -= m_frameStart;
     m_events = rest;
     m_frameStart = 0;
 }

@@ -1,10 +1,13 @@
-// renderer_q3trecord: environment Q3RT_RECORD_INNER is the path of the module to record, Q3RT_RECORD_OUT the file to
-// write. A vid_restart ends the recording: the file is complete up to there, and the game goes on unrecorded.
+// renderer_q3trecord: stands around the module that the environment names (watch_protocol.hpp), records what passes,
+// and reports each frame to the program that started the engine. A vid_restart ends the recording: the file is complete
+// up to there, and the game goes on unrecorded.
 
 #include <cstdlib>
 #include <dlfcn.h>
 
 #include "trace/recorder/recorder.hpp"
+#include "trace/recorder/watch.hpp"
+#include "trace/recorder/watch_protocol.hpp"
 
 namespace q3rt {
 namespace {
@@ -17,7 +20,7 @@ void refuse(const char* why, const char* detail) {
 }
 
 bool loadInner(int apiVersion) {
-    const char* path = std::getenv("Q3RT_RECORD_INNER");
+    const char* path = std::getenv(kRecordInner);
     if (!path) {
         refuse("no module to record: set Q3RT_RECORD_INNER, or use 'q3rt record'", "");
         return false;
@@ -35,14 +38,22 @@ bool loadInner(int apiVersion) {
     return exports != nullptr;
 }
 
+uint32_t numberFrom(const char* variable) {
+    const char* text = std::getenv(variable);
+    return text ? static_cast<uint32_t>(std::strtoul(text, nullptr, 10)) : 0;
+}
+
 void openFile() {
-    const char* path = std::getenv("Q3RT_RECORD_OUT");
-    if (!path) return refuse("nothing is recorded: Q3RT_RECORD_OUT names no file", "");
+    const char* path = std::getenv(kRecordOut);
+    if (!path) return; // only watched
     if (std::getenv(kStartedVariable)) return refuse("the recording ended with the restart: ", path);
     static char failure[1024];
     failure[0] = 0;
     try {
         recording.recorder = new Recorder(path);
+        const uint32_t first = numberFrom(kRecordFirst), count = numberFrom(kRecordCount);
+        recording.recorder->writer.keepStretch(first, count);
+        recording.recorder->lastFrame = count > 0 ? first + count : 0;
     } catch (const std::exception& error) {
         std::snprintf(failure, sizeof failure, "%s", error.what());
     }
@@ -60,6 +71,7 @@ extern "C" [[gnu::visibility("default")]] refexport_t* GetRefAPI(int apiVersion,
     recording.engine = *imports;
     if (apiVersion != REF_API_VERSION || !loadInner(apiVersion)) return nullptr;
     openFile();
+    startWatching();
     exports = makeRecordingExports();
     return &exports;
 }

@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 
 #include "trace/recorder/recorder.hpp"
+#include "trace/recorder/watch.hpp"
 
 namespace q3rt {
 namespace {
@@ -20,6 +21,7 @@ void noteEvent(const Event& event) {
 
 void shutDown(qboolean destroyWindow) {
     recording.inFrame = false;
+    watchMapState(false);
     recording.inner.Shutdown(destroyWindow);
     noteEvent(event::Shutdown{destroyWindow});
     note([](Recorder& recorder) {
@@ -33,6 +35,7 @@ void shutDown(qboolean destroyWindow) {
         delete recording.recorder;
         recording.recorder = nullptr;
     }
+    stopWatching();
     if (recording.innerLibrary) dlclose(recording.innerLibrary);
     recording.innerLibrary = nullptr;
     recording.inner = {};
@@ -40,6 +43,7 @@ void shutDown(qboolean destroyWindow) {
 
 void beginRegistration(glconfig_t* config) {
     recording.inner.BeginRegistration(config);
+    watchRegistered(*config);
     note([=](Recorder& recorder) {
         recorder.writer.setRenderer(config->renderer_string);
         recorder.writer.add(event::BeginRegistration{config->vidWidth, config->vidHeight, config->windowAspect});
@@ -78,6 +82,7 @@ void setWorldVisData(const byte* vis) { recording.inner.SetWorldVisData(vis); }
 
 void endRegistration() {
     recording.inner.EndRegistration();
+    watchMapState(true);
     noteEvent(event::EndRegistration{});
 }
 
@@ -136,6 +141,7 @@ void addAdditiveLight(const vec3_t origin, float radius, float r, float g, float
 
 void renderScene(const refdef_t* view) {
     recording.inner.RenderScene(view);
+    watchScene(*view);
     noteEvent(event::RenderScene{*view});
 }
 
@@ -175,8 +181,9 @@ void uploadCinematic(int w, int h, int columns, int rows, const byte* rgba, int 
 }
 
 void beginFrame(int stereoFrame) {
+    watchFrameBegin();
     recording.frameClockMs = recording.engine.Milliseconds();
-    recording.inFrame = true;
+    recording.inFrame = recording.recorder != nullptr;
     note([](Recorder& recorder) {
         recorder.noteCvarChanges();
         recorder.noteClock(recording.frameClockMs);
@@ -186,9 +193,15 @@ void beginFrame(int stereoFrame) {
 }
 
 void endFrame(int* frontMs, int* backMs) {
+    watchFrameEnding();
     recording.inner.EndFrame(frontMs, backMs);
     recording.inFrame = false;
     noteEvent(event::EndFrame{});
+    watchFrameEnded();
+    note([](Recorder& recorder) {
+        if (recorder.lastFrame != 0 && recorder.writer.worldFramesSeen() == recorder.lastFrame)
+            recording.engine.Cmd_ExecuteText(Q3_EXEC_APPEND, "quit\n");
+    });
 }
 
 int markFragments(int pointCount, const vec3_t* points, const vec3_t projection, int maxPoints, vec3_t outPoints,

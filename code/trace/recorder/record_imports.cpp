@@ -1,6 +1,7 @@
 // What the recorded module asks of the engine: passed on, and noted where a replay must give the same answer.
 
 #include "trace/recorder/recorder.hpp"
+#include "trace/recorder/watch.hpp"
 
 namespace q3rt {
 namespace {
@@ -43,6 +44,10 @@ void uploadCinematic(int handle) {
     note([](Recorder& recorder) { recorder.uploadingCinematic = -1; });
 }
 
+void writeVideoFrame(const byte* bytes, int size) {
+    if (!watchPicture(bytes, size)) recording.engine.CL_WriteAVIVideoFrame(bytes, size);
+}
+
 } // namespace
 
 refimport_t makeRecordingImports(const refimport_t& engine) {
@@ -53,6 +58,7 @@ refimport_t makeRecordingImports(const refimport_t& engine) {
     imports.CIN_PlayCinematic = playCinematic;
     imports.CIN_RunCinematic = runCinematic;
     imports.CIN_UploadCinematic = uploadCinematic;
+    imports.CL_WriteAVIVideoFrame = writeVideoFrame;
     return imports;
 }
 

@@ -42,6 +42,7 @@ struct Recorder {
     std::unordered_map<std::string, SeenCvar> cvars;
     int uploadingCinematic = -1; ///< handle inside CIN_UploadCinematic
     int lastClockMs = -1;
+    uint32_t lastFrame = 0; ///< world frames after which the engine is told to quit; 0: never
 
     void noteClock(int ms);
     void noteCvar(const cvar_t& cvar, const char* defaultValue);

@@ -1,0 +1,142 @@
+// q3rt play: the packaged engine with one of our renderers.
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "host/commands.hpp"
+#include "host/engine_process.hpp"
+
+namespace q3rt {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PlayArguments {
+    EngineRun run;
+    std::string demo, renderer = "rt", out, stats;
+    int every = 100;
+    bool json = false;
+};
+
+bool hasDisplay() {
+    const auto isSet = [](const char* name) {
+        const char* value = std::getenv(name);
+        return value && *value;
+    };
+    return isSet("DISPLAY") || isSet("WAYLAND_DISPLAY");
+}
+
+/// What a watched run leaves: pictures, a line a frame, and the figures for the summary.
+class PlayReport {
+  public:
+    PlayReport(const PlayArguments& arguments, size_t expectedFrames)
+        : m_folder(arguments.out)
+        , m_progress("frame", expectedFrames) {
+        std::error_code error;
+        if (!m_folder.empty()) fs::create_directories(m_folder, error);
+        if (error)
+            throw UsageError(
+                formatText("%s: can't be made: %s; choose another --out", m_folder.c_str(), error.message().c_str()));
+        if (arguments.stats.empty()) return;
+        m_stats.open(arguments.stats);
+        if (!m_stats) throw UsageError(arguments.stats + ": can't be written; choose another --stats");
+    }
+    void take(const WatchedFrame& frame) {
+        if (frame.frame == WatchMessage::kStarted) {
+            m_device = frame.text;
+            return;
+        }
+        m_times.push_back(frame.wallMs);
+        m_lastStats = frame.text;
+        if (frame.picture.width > 0 && !m_folder.empty()) {
+            writePng(m_folder / formatText("%08d.png", frame.frame), frame.picture);
+            ++m_pictures;
+        }
+        if (m_stats.is_open()) m_stats << statsLine(frame.frame, frame.wallMs, frame.text) << '\n';
+        m_progress.advance(m_times.size());
+    }
+    void print(bool json) const {
+        const TimeSummary times = summarizeTimes(m_times);
+        const auto stats = nlohmann::ordered_json::parse(m_lastStats, nullptr, false);
+        const std::string backend = stats.is_object() ? stats.value("backend", "") : "";
+        const nlohmann::ordered_json line = {{"frames", times.count}, {"median_ms", times.medianMs},
+                                             {"p99_ms", times.p99Ms}, {"device", m_device},
+                                             {"backend", backend},    {"pictures", m_pictures}};
+        if (!m_folder.empty()) std::ofstream(m_folder / "summary.json") << line.dump() << '\n';
+        if (json)
+            std::printf("%s\n", line.dump().c_str());
+        else
+            std::printf("%zu frames, median %.2f ms, 99th percentile %.2f ms, device %s%s%s, %zu pictures%s%s\n",
+                        times.count, times.medianMs, times.p99Ms, m_device.c_str(),
+                        backend.empty() ? "" : ", back end ", backend.c_str(), m_pictures,
+                        m_folder.empty() ? "" : " in ", m_folder.c_str());
+    }
+    size_t frameCount() const { return m_times.size(); }
+
+  private:
+    fs::path m_folder;
+    std::ofstream m_stats;
+    Progress m_progress;
+    std::vector<double> m_times;
+    std::string m_device, m_lastStats;
+    size_t m_pictures = 0;
+};
+
+void runPlay(PlayArguments& a) {
+    EngineRun& run = a.run;
+    run.module = findModule(a.renderer);
+    const auto files = openGame(run.game);
+    if (!a.demo.empty()) run.demo = findDemo(*files, a.demo);
+    if (!run.map.empty() && !files->read("maps/" + run.map + ".bsp"))
+        throw ContentError("maps/" + run.map +
+                           ".bsp is not in the game's archives; 'q3rt doctor' shows where it looks");
+    run.headless = run.headless || !hasDisplay();
+    if (run.headless && a.demo.empty() && run.frameLimit == 0)
+        throw UsageError("a game without a display needs an end: give --demo, or --map with --frames");
+    run.timed = run.timed || run.headless;
+    run.watched = run.headless || !a.out.empty() || !a.stats.empty();
+    run.pictureEvery = a.out.empty() ? 0 : a.every;
+    size_t expected = run.demo.snapshots;
+    if (run.frameLimit > 0) expected = static_cast<size_t>(run.frameLimit);
+    PlayReport report(a, expected);
+    runEngine(run, [&](const WatchedFrame& frame) { report.take(frame); });
+    if (!run.watched) return;
+    if (report.frameCount() == 0) throw DeviceError("the engine ended before it drew the world");
+    report.print(a.json);
+}
+
+} // namespace
+
+void addPlayCommand(CLI::App& app, int& exitCode) {
+    CLI::App* command = app.add_subcommand(
+        "play", "Play a demo or a map in the packaged engine; without a display, as fast as it draws, into pictures");
+    const auto a = std::make_shared<PlayArguments>();
+    CLI::Option* demo = command->add_option("--demo", a->demo, "Demo of the game, such as demo088-test1");
+    command->add_option("--map", a->run.map, "Map to start")->excludes(demo);
+    addRendererOption(*command, a->renderer);
+    command->add_flag("--headless", a->run.headless, "No window (the default where there is no display)");
+    addSizeOption(*command, a->run.size);
+    addSetOption(*command, a->run.cvars);
+    command->add_flag("--timedemo", a->run.timed, "Draw each frame of the demo once, as fast as possible");
+    command->add_option("--frames", a->run.frameLimit, "Stop after so many frames of the world")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--out", a->out, "Folder for PNG pictures and summary.json");
+    command->add_option("--every", a->every, "Keep the picture of every N-th frame")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command->add_option("--stats", a->stats, "File for one JSON object a frame");
+    command->add_flag("--json", a->json, "Print the summary as one JSON object");
+    addGameOptions(*command, a->run.game);
+    command->callback([a, &exitCode] {
+        runPlay(*a);
+        exitCode = 0;
+    });
+}
+
+} // namespace q3rt

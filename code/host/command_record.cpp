@@ -1,0 +1,88 @@
+// q3rt record: a demo played in the real engine, the renderer's calls written down.
+
+#include <cstdio>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "host/commands.hpp"
+#include "host/engine_process.hpp"
+
+namespace q3rt {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RecordArguments {
+    EngineRun run;
+    std::string demo, out, renderer = "null";
+    bool json = false;
+};
+
+void runRecord(RecordArguments& a) {
+    EngineRun& run = a.run;
+    run.module = findModule(a.renderer);
+    run.demo = findDemo(*openGame(run.game), a.demo);
+    run.headless = run.timed = run.watched = true;
+    run.recordTo = fs::absolute(a.out);
+    if (!fs::is_directory(run.recordTo.parent_path()))
+        throw UsageError(run.recordTo.parent_path().string() + ": no such folder; choose another --out");
+    const auto frames = static_cast<size_t>(run.recordFirst + run.recordCount);
+    // An older file of that name must not pass for the result.
+    std::error_code ignored;
+    fs::remove(run.recordTo, ignored);
+    {
+        Progress progress("frame", run.recordCount > 0 ? frames : run.demo.snapshots);
+        runEngine(run, [&](const WatchedFrame& frame) {
+            if (frame.frame >= 0) progress.advance(static_cast<size_t>(frame.frame) + 1);
+        });
+    }
+    const Recording recording(run.recordTo);
+    const TraceInfo& info = recording.info();
+    const uintmax_t bytes = fs::file_size(run.recordTo);
+    if (info.frameCount == 0)
+        throw ContentError(
+            formatText("%s holds no frame of the world: the demo is shorter than --first", run.recordTo.c_str()));
+    if (a.json) {
+        const nlohmann::ordered_json line = {{"recording", run.recordTo.string()},
+                                             {"frames", info.frameCount},
+                                             {"first", info.firstFrame},
+                                             {"loading_frames", info.loadingFrameCount},
+                                             {"map", info.map},
+                                             {"width", info.width},
+                                             {"height", info.height},
+                                             {"files", recording.files().size()},
+                                             {"bytes", bytes}};
+        std::printf("%s\n", line.dump().c_str());
+    } else {
+        std::printf("%s: %u frames of %s at %dx%d, %u loading frames, %zu files read, %.1f MB\n", run.recordTo.c_str(),
+                    info.frameCount, info.map.c_str(), info.width, info.height, info.loadingFrameCount,
+                    recording.files().size(), static_cast<double>(bytes) / 1e6);
+    }
+}
+
+} // namespace
+
+void addRecordCommand(CLI::App& app, int& exitCode) {
+    CLI::App* command = app.add_subcommand(
+        "record", "Play a demo in the packaged engine and record what it asks of the renderer, frame by frame");
+    const auto a = std::make_shared<RecordArguments>();
+    command->add_option("--demo", a->demo, "Demo of the game, such as demo088-test1")->required();
+    command->add_option("--out", a->out, "Recording to write (.q3t)")->required();
+    command->add_option("--first", a->run.recordFirst, "First world frame to keep")->check(CLI::NonNegativeNumber);
+    command->add_option("--count", a->run.recordCount, "Number of frames to keep (default: to the end)")
+        ->check(CLI::PositiveNumber);
+    addRendererOption(*command, a->renderer);
+    addSizeOption(*command, a->run.size);
+    addSetOption(*command, a->run.cvars);
+    command->add_flag("--json", a->json, "Print the summary as one JSON object");
+    addGameOptions(*command, a->run.game);
+    command->callback([a, &exitCode] {
+        runRecord(*a);
+        exitCode = 0;
+    });
+}
+
+} // namespace q3rt

@@ -1,0 +1,152 @@
+// q3rt replay: a recording drawn again, by any module, without engine or game code.
+
+#include <cstdio>
+#include <fstream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "host/commands.hpp"
+#include "host/headless/replayer.hpp"
+#include "host/session.hpp"
+
+namespace q3rt {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReplayArguments {
+    std::string trace, renderer = "rt", out, stats;
+    PictureSize size;
+    int first = -1, count = -1, warmup = 0, accumulate = 1, every = 1;
+    CvarList cvars;
+    GameChoice game;
+    bool json = false;
+};
+
+/// Where pictures and statistics of drawn frames go.
+class FrameOutput {
+  public:
+    explicit FrameOutput(const ReplayArguments& arguments)
+        : m_folder(arguments.out) {
+        if (!m_folder.empty()) {
+            std::error_code error;
+            fs::create_directories(m_folder, error);
+            if (error)
+                throw UsageError(formatText("%s: can't be made: %s; choose another --out", m_folder.c_str(),
+                                            error.message().c_str()));
+        }
+        if (arguments.stats.empty()) return;
+        m_stats.open(arguments.stats);
+        if (!m_stats) throw UsageError(arguments.stats + ": can't be written; choose another --stats");
+    }
+    bool wantsPictures() const { return !m_folder.empty(); }
+    bool wantsStats() const { return m_stats.is_open(); }
+    void store(int number, const Replayer::Result& result, const std::string& moduleStats) {
+        if (result.picture && wantsPictures()) writePng(m_folder / formatText("%08d.png", number), *result.picture);
+        if (wantsStats() && !(m_stats << statsLine(number, result.wallMs, moduleStats) << '\n'))
+            throw UsageError("the statistics file can't be written: the disk may be full");
+    }
+
+  private:
+    fs::path m_folder;
+    std::ofstream m_stats;
+};
+
+/// Draws one frame so often that an accumulating renderer has averaged `times` draws of it.
+Replayer::Result drawFrame(Replayer& replayer, HeadlessEngine& engine, const Recording::Frame& frame, int times,
+                           Replayer::Draw draw) {
+    if (times <= 1) return replayer.play(frame, draw);
+    replayer.play(frame, Replayer::Draw::Nothing);
+    engine.cvars.preset("rt_accumulate", "1");
+    Replayer::Result result;
+    double wallMs = 0;
+    for (int i = 0; i < times; ++i) {
+        result = replayer.redraw(frame, i + 1 == times ? draw : Replayer::Draw::Frame);
+        wallMs += result.wallMs;
+    }
+    result.wallMs = wallMs;
+    engine.cvars.preset("rt_accumulate", "0");
+    return result;
+}
+
+void printSummary(const ReplayArguments& arguments, const TimeSummary& times, const glconfig_t& config) {
+    if (arguments.json) {
+        const nlohmann::ordered_json line = {{"frames", times.count},      {"median_ms", times.medianMs},
+                                             {"p99_ms", times.p99Ms},      {"width", config.vidWidth},
+                                             {"height", config.vidHeight}, {"device", config.renderer_string}};
+        std::printf("%s\n", line.dump().c_str());
+        return;
+    }
+    std::printf("%zu frames at %dx%d: median %.2f ms, 99th percentile %.2f ms (%s)\n", times.count, config.vidWidth,
+                config.vidHeight, times.medianMs, times.p99Ms, config.renderer_string);
+}
+
+void runReplay(const ReplayArguments& arguments) {
+    Recording recording{fs::path(arguments.trace)};
+    const auto start = static_cast<int>(recording.info().firstFrame);
+    const int available = start + static_cast<int>(recording.info().frameCount);
+    const int first = arguments.first < 0 ? start : arguments.first;
+    const int end = arguments.count < 0 ? available : first + arguments.count;
+    if (first < start || first >= available || end > available)
+        throw UsageError(formatText("%s has world frames %d to %d; choose --first and --count within",
+                                    arguments.trace.c_str(), start, available - 1));
+    RecordedFiles files(recording, arguments.game);
+    FrameOutput output(arguments);
+    HeadlessEngine engine(files);
+    engine.loadModule(findModule(arguments.renderer));
+    if (output.wantsStats()) engine.cvars.preset("q3rt_wantStats", "1");
+    Replayer replayer(recording, engine, {arguments.size.width, arguments.size.height, arguments.cvars});
+    Progress progress("frame", static_cast<size_t>(end - first));
+    std::vector<double> times;
+    for (size_t i = 0; i < recording.frameCount(); ++i) {
+        const Recording::Frame frame = recording.readFrame(i);
+        if (frame.number >= end) break;
+        if (frame.number < first) {
+            const bool warm = frame.number >= 0 && frame.number >= first - arguments.warmup;
+            replayer.play(frame, warm ? Replayer::Draw::Frame : Replayer::Draw::Nothing);
+            continue;
+        }
+        const bool chosen = (frame.number - first) % arguments.every == 0;
+        const bool capture = output.wantsPictures() && chosen;
+        const Replayer::Result result = drawFrame(replayer, engine, frame, arguments.accumulate,
+                                                  capture ? Replayer::Draw::Capture : Replayer::Draw::Frame);
+        output.store(frame.number, result, engine.cvars.value("q3rt_stats"));
+        times.push_back(result.wallMs);
+        progress.advance(times.size());
+    }
+    printSummary(arguments, summarizeTimes(times), engine.config());
+    engine.unloadModule();
+}
+
+} // namespace
+
+void addReplayCommand(CLI::App& app, int& exitCode) {
+    CLI::App* command =
+        app.add_subcommand("replay", "Draw a recording again, with any renderer, at any size, without the engine");
+    const auto a = std::make_shared<ReplayArguments>();
+    command->add_option("recording", a->trace, "The .q3t file")->required();
+    addRendererOption(*command, a->renderer);
+    addSizeOption(*command, a->size);
+    command->add_option("--first", a->first, "First world frame to draw (default: the first one)")
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--count", a->count, "Number of frames (default: to the end)")->check(CLI::PositiveNumber);
+    command->add_option("--warmup", a->warmup, "Frames before --first that are drawn but not kept")
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--accumulate", a->accumulate, "Draws of each frame that are averaged (rt_accumulate)")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--every", a->every, "Keep the picture of every N-th frame only")->check(CLI::PositiveNumber);
+    command->add_option("--out", a->out, "Folder for PNG pictures, named by frame number");
+    command->add_option("--stats", a->stats, "File for one JSON object a frame");
+    command->add_flag("--json", a->json, "Print the summary as one JSON object");
+    addSetOption(*command, a->cvars);
+    addGameOptions(*command, a->game);
+    command->callback([a, &exitCode] {
+        runReplay(*a);
+        exitCode = 0;
+    });
+}
+
+} // namespace q3rt

@@ -1,0 +1,95 @@
+// q3rt subset: the smallest archive from which a map or a recording can be drawn.
+
+#include <cstdio>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "host/commands.hpp"
+#include "host/headless/replayer.hpp"
+#include "host/session.hpp"
+#include "host/still_scene.hpp"
+
+namespace q3rt {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SubsetArguments {
+    std::string map, trace, out;
+    GameChoice game;
+    bool json = false;
+};
+
+/// Loads the map and all that its entities show, without drawing.
+void loadMap(HeadlessEngine& engine, FileSource& files, const std::string& map) {
+    const std::string mapFile = "maps/" + map + ".bsp";
+    const auto bytes = files.read(mapFile);
+    if (!bytes) throw ContentError(mapFile + " is not in the game's archives; choose another --map");
+    const Bsp bsp = parseBsp(*bytes, mapFile);
+    const std::vector<StillEntity> scene = buildStillScene(bsp, parseEntities(bsp.entities));
+    engine.beginRegistration();
+    engine.enter([&](const refexport_t& module) {
+        module.LoadWorld(mapFile.c_str());
+        for (const StillEntity& still : scene)
+            if (!still.model.empty()) module.RegisterModel(still.model.c_str());
+        module.EndRegistration();
+    });
+}
+
+void loadTrace(HeadlessEngine& engine, Recording& recording) {
+    Replayer replayer(recording, engine, {});
+    for (size_t i = 0; i < recording.frameCount(); ++i)
+        replayer.play(recording.readFrame(i), Replayer::Draw::Nothing);
+}
+
+void runSubset(const SubsetArguments& a) {
+    std::unique_ptr<Recording> recording;
+    std::unique_ptr<FileSource> files;
+    if (a.map.empty()) {
+        recording = std::make_unique<Recording>(fs::path(a.trace));
+        files = std::make_unique<RecordedFiles>(*recording, a.game);
+    } else {
+        files = openGame(a.game);
+    }
+    HeadlessEngine engine(*files);
+    engine.loadModule(findModule("null"));
+    if (recording)
+        loadTrace(engine, *recording);
+    else
+        loadMap(engine, *files, a.map);
+    std::vector<std::pair<std::string, std::vector<std::byte>>> entries;
+    for (const std::string& name : engine.filesRead())
+        if (auto bytes = files->read(name)) entries.emplace_back(name, std::move(*bytes));
+    engine.unloadModule();
+    writePk3(a.out, entries);
+    const uintmax_t size = fs::file_size(a.out);
+    if (a.json)
+        std::printf(
+            "%s\n",
+            nlohmann::ordered_json{{"archive", a.out}, {"files", entries.size()}, {"bytes", size}}.dump().c_str());
+    else
+        std::printf("%s: %zu files, %.1f MB\n", a.out.c_str(), entries.size(), static_cast<double>(size) / 1e6);
+}
+
+} // namespace
+
+void addSubsetCommand(CLI::App& app, int& exitCode) {
+    CLI::App* command = app.add_subcommand("subset", "Write the smallest pk3 that draws a map or a recording");
+    const auto a = std::make_shared<SubsetArguments>();
+    CLI::Option_group* what = command->add_option_group("what to draw");
+    what->add_option("--map", a->map, "Map name, such as oa_dm1");
+    what->add_option("--trace", a->trace, "Recording (.q3t)");
+    what->require_option(1);
+    command->add_option("--out", a->out, "Archive to write (.pk3)")->required();
+    command->add_flag("--json", a->json, "Print the result as one JSON object");
+    addGameOptions(*command, a->game);
+    command->callback([a, &exitCode] {
+        runSubset(*a);
+        exitCode = 0;
+    });
+}
+
+} // namespace q3rt

@@ -1,0 +1,183 @@
+#include "host/engine_process.hpp"
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/error.hpp"
+#include "host/engine_setup.hpp"
+#include "host/file_bytes.hpp"
+
+extern char** environ;
+
+namespace q3rt {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The longest silence of a healthy headless run: a frame, or a map load with its shaders, on a slow machine.
+constexpr int kPatienceMs = 300'000;
+
+/// A file descriptor that closes itself.
+struct Descriptor {
+    int number = -1;
+    explicit Descriptor(int n)
+        : number(n) {}
+    ~Descriptor() { reset(); }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    void reset() {
+        if (number >= 0) close(number);
+        number = -1;
+    }
+};
+
+/// A child process that doesn't outlive its owner.
+class Child {
+  public:
+    Child(const EngineCommand& command, int outputFile, int socket);
+    ~Child() {
+        if (m_process <= 0) return;
+        kill(m_process, SIGKILL);
+        wait();
+    }
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
+    /// Exit status, or 128 + signal.
+    int wait() {
+        int status = 0;
+        while (waitpid(m_process, &status, 0) < 0 && errno == EINTR) {
+        }
+        m_process = -1;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    }
+
+  private:
+    pid_t m_process = -1;
+};
+
+Child::Child(const EngineCommand& command, int outputFile, int socket) {
+    // Everything is allocated before the fork: the child may only make system calls.
+    std::vector<std::string> variables;
+    for (char** variable = environ; *variable; ++variable) {
+        const std::string_view text = *variable;
+        bool replaced = false;
+        for (const auto& [name, value] : command.environment)
+            replaced = replaced || text.starts_with(name + "=");
+        if (!replaced) variables.emplace_back(text);
+    }
+    for (const auto& [name, value] : command.environment)
+        variables.push_back(name + "=" + value);
+    variables.push_back(std::string(kWatchSocket) + "=" + std::to_string(socket));
+    std::vector<char*> arguments, environment;
+    for (const std::string& argument : command.arguments)
+        arguments.push_back(const_cast<char*>(argument.c_str()));
+    for (std::string& variable : variables)
+        environment.push_back(variable.data());
+    arguments.push_back(nullptr);
+    environment.push_back(nullptr);
+    m_process = fork();
+    if (m_process < 0) throw UsageError(formatText("the engine can't be started: %s", std::strerror(errno)));
+    if (m_process > 0) return;
+    const int input = open("/dev/null", O_RDONLY);
+    if (outputFile >= 0) {
+        dup2(input, STDIN_FILENO);
+        dup2(outputFile, STDOUT_FILENO);
+        dup2(outputFile, STDERR_FILENO);
+    }
+    fcntl(socket, F_SETFD, 0);
+    execve(command.program.c_str(), arguments.data(), environment.data());
+    _exit(127);
+}
+
+/// False at the end of the stream. Throws when nothing comes for too long.
+bool receive(int socket, void* data, size_t bytes) {
+    char* at = static_cast<char*>(data);
+    while (bytes > 0) {
+        pollfd waiting = {socket, POLLIN, 0};
+        if (poll(&waiting, 1, kPatienceMs) == 0)
+            throw DeviceError(formatText("the engine gave no sign of life for %d s and was ended", kPatienceMs / 1000));
+        const ssize_t got = read(socket, at, bytes);
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) return false;
+        at += got;
+        bytes -= static_cast<size_t>(got);
+    }
+    return true;
+}
+
+/// BGR rows, bottom first, padded to 4 bytes, as the interposer sends them.
+HostFrame pictureFrom(const WatchMessage& message, const std::vector<uint8_t>& bgr) {
+    HostFrame frame;
+    const auto width = static_cast<size_t>(message.width), height = static_cast<size_t>(message.height);
+    const size_t rowBytes = (width * 3 + 3) & ~size_t{3};
+    if (bgr.empty() || bgr.size() != rowBytes * height) return frame;
+    frame.width = message.width;
+    frame.height = message.height;
+    frame.rgb.resize(width * height * 3);
+    for (size_t y = 0; y < height; ++y)
+        for (size_t x = 0; x < width; ++x)
+            for (size_t channel = 0; channel < 3; ++channel)
+                frame.rgb[(y * width + x) * 3 + channel] = bgr[(height - 1 - y) * rowBytes + x * 3 + 2 - channel];
+    return frame;
+}
+
+void receiveFrames(int socket, const std::function<void(const WatchedFrame&)>& onFrame) {
+    WatchMessage message;
+    while (receive(socket, &message, sizeof message)) {
+        if (message.magic != WatchMessage::kMagic) throw DeviceError("the engine's frame reports are garbled");
+        WatchedFrame frame;
+        frame.frame = message.frame;
+        frame.wallMs = message.wallMs;
+        frame.text.resize(message.textBytes);
+        std::vector<uint8_t> picture(message.pictureBytes);
+        if (!receive(socket, frame.text.data(), frame.text.size()) || !receive(socket, picture.data(), picture.size()))
+            return;
+        frame.picture = pictureFrom(message, picture);
+        onFrame(frame);
+    }
+}
+
+/// The last line of the engine's console that names an error, without its ornaments.
+std::string lastError(const fs::path& console) {
+    const std::vector<std::byte> bytes = readFileBytes(console);
+    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    std::string found;
+    for (size_t start = 0; start < text.size();) {
+        const size_t end = std::min(text.find('\n', start), text.size());
+        const std::string line = text.substr(start, end - start);
+        if (line.starts_with("ERROR: ") || line.starts_with("recording ended") ||
+            line.starts_with("renderer_q3trecord"))
+            found = line;
+        start = end + 1;
+    }
+    return found;
+}
+
+} // namespace
+
+void runEngine(const EngineRun& run, const std::function<void(const WatchedFrame&)>& onFrame) {
+    const RunFolder home(run.headless);
+    const EngineCommand command = prepareEngine(run, home.path());
+    const fs::path console = home.path() / "console.txt";
+    Descriptor output(run.headless ? open(console.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0644) : -1);
+    int pair[2] = {-1, -1};
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0)
+        throw UsageError(formatText("the engine can't be started: %s", std::strerror(errno)));
+    Descriptor ours(pair[0]), theirs(pair[1]);
+    Child child(command, output.number, theirs.number);
+    theirs.reset();
+    if (run.watched) receiveFrames(ours.number, onFrame);
+    const int status = child.wait();
+    const std::string error = run.headless ? lastError(console) : std::string();
+    if (!error.empty() || status != 0)
+        throw DeviceError(formatText("the engine failed (status %d)%s%s; 'q3rt doctor' looks for the cause", status,
+                                     error.empty() ? "" : ": ", error.c_str()));
+}
+
+} // namespace q3rt
