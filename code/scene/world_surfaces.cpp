@@ -35,7 +35,8 @@ MaterialId findMaterial(const WorldBuild& build, const BspSurface& surface) {
     const std::string& name = build.world.bsp.shaders[static_cast<size_t>(surface.shader)].name;
     const MaterialId id = build.materials.find(name, lightmapContextOf(build, surface));
     if (!build.materials.get(id).isDefault) return id;
-    logLineOnce(LogLevel::Warning, "%s: no usable script or image for %s; the default look is drawn",
+    // The library has warned of the shader itself; this line says who wears it.
+    logLineOnce(LogLevel::Developer, "%s: no usable script or image for %s; the default look is drawn",
                 build.world.name.c_str(), name.c_str());
     return 0;
 }

@@ -103,6 +103,7 @@ TEST(Traps, T6MissingTexturesAreWarnedOfOnceAndShowTheDefault) {
     for (const char* name : {"dsi/cretebase", "c_redlines", "c_bluelines"}) {
         EXPECT_EQ(map.log.count(std::string(name) + "; the default look"), 1u) << name;
     }
+    EXPECT_EQ(map.log.count("default drawn: textures/dsi/cretebase"), 1u);
     int faces = 0;
     for (const WorldSurface& surface : map.world->surfaces) {
         faces += surface.drawn && surface.material == 0;
