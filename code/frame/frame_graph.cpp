@@ -43,7 +43,8 @@ BufferId PassBuilder::create(const char* name, VkDeviceSize bytes, const Access&
 
 void PassBuilder::keep() { m_graph.m_passes[m_pass].kept = true; }
 
-void FrameGraph::addPass(const char* name, const Declare& declare, Record record) {
+void FrameGraph::addDeclared(const char* name, const std::function<void(PassBuilder&)>& declare,
+                             std::function<void(PassContext&)> record) {
     if (m_compiled) throw UsageError(formatText("pass \"%s\" is added to a compiled frame", name));
     GraphPass pass;
     pass.name = name;

@@ -9,8 +9,10 @@
 // error. A pass nobody needs (its results unread, nothing imported written, not kept) is dropped.
 
 #include <functional>
-#include <span>
+#include <memory>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "frame/access.hpp"
@@ -119,11 +121,22 @@ struct GraphPass {
 
 class FrameGraph {
   public:
-    using Declare = std::function<void(PassBuilder&)>;
-    using Record = std::function<void(PassContext&)>;
-
-    /// `name` is the debug label, the timer row and the dump file's name.
-    void addPass(const char* name, const Declare& declare, Record record);
+    /// `name` is the debug label, the timer row and the dump file's name. `declare(PassBuilder&)` may return a handle
+    /// or a structure of handles (default-constructible): then `record(PassContext&, const Data&)` gets it, and so does
+    /// the caller. Otherwise `record(PassContext&)`.
+    template <typename Declare, typename Record>
+    auto addPass(const char* name, Declare&& declare, Record&& record) {
+        using Data = std::invoke_result_t<Declare&, PassBuilder&>;
+        if constexpr (std::is_void_v<Data>) {
+            addDeclared(name, declare, std::forward<Record>(record));
+        } else {
+            const auto data = std::make_shared<Data>();
+            addDeclared(
+                name, [&](PassBuilder& pass) { *data = declare(pass); },
+                [data, record = std::forward<Record>(record)](PassContext& context) { record(context, *data); });
+            return *data;
+        }
+    }
 
     /// An image that lives beyond the frame (history, targets); its state is kept in GpuImage::state.
     ImageId importImage(const char* name, GpuImage& image);
@@ -152,6 +165,8 @@ class FrameGraph {
   private:
     friend class PassBuilder;
     friend class FrameExecutor;
+    void addDeclared(const char* name, const std::function<void(PassBuilder&)>& declare,
+                     std::function<void(PassContext&)> record);
     uint32_t use(uint32_t pass, uint32_t resource, uint32_t version, const Access& how, bool write);
     uint32_t addResource(GraphResource resource);
     void cullPasses();

@@ -12,7 +12,9 @@ VkDescriptorSet PassContext::makeSet(const DescriptorLayout& layout,
 
 const GraphResource& PassContext::imageResource(ImageId image) const {
     if (image.index >= m_graph.resources().size() || !m_graph.resources()[image.index].image)
-        throw UsageError("a pass asks for an image that the frame doesn't have");
+        throw UsageError(
+            "a pass asks for an image that the frame doesn't have (a handle made in declare reaches record as "
+            "its argument, not by capture)");
     return m_graph.resources()[image.index];
 }
 

@@ -69,9 +69,9 @@ TEST_F(FrameTest, TriangleIsDrawnAndReadBack) {
         orange += rows[i] == std::byte{255} && rows[i + 2] == std::byte{0};
         blue += rows[i] == std::byte{0} && rows[i + 2] == std::byte{255};
     }
-    // Corners (-1,-1), (-1,3), (0,1) of a target that spans 2 x 2: all of it lies in x <= 0 and 3/4 of it in y <= 1.
+    // The edge from (-1, -1) to (0, 1) cuts a quarter off the target, which spans 2 x 2.
     EXPECT_EQ(orange + blue, rows.size() / 4);
-    EXPECT_NEAR(static_cast<double>(orange) / static_cast<double>(orange + blue), 3.0 / 16.0 + 1.0 / 16.0, 0.04);
+    EXPECT_NEAR(static_cast<double>(orange) / static_cast<double>(orange + blue), 0.25, 0.02);
 }
 
 TEST_F(FrameTest, FramesInFlightReuseTransientsAndReportTimes) {
@@ -97,10 +97,9 @@ TEST_F(FrameTest, FramesInFlightReuseTransientsAndReportTimes) {
         FrameGraph graph;
         const ImageId out = graph.importImage("target", target.image());
         const GraphImageInfo info{kSize};
-        ImageId first, second;
-        graph.addPass(
-            "clear", [&](PassBuilder& pass) { first = pass.create("first", info, access::kTransferWrite); },
-            [&first](PassContext& context) {
+        const ImageId first = graph.addPass(
+            "clear", [&](PassBuilder& pass) { return pass.create("first", info, access::kTransferWrite); },
+            [](PassContext& context, ImageId first) {
                 const VkClearColorValue green{.float32 = {0, 1, 0, 1}};
                 const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
                 vkCmdClearColorImage(context.commands(), context.image(first), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
@@ -109,7 +108,7 @@ TEST_F(FrameTest, FramesInFlightReuseTransientsAndReportTimes) {
         graph.addPass(
             "nobody needs", [&](PassBuilder& pass) { (void)pass.create("unused", info, access::kTransferWrite); },
             [](PassContext&) { FAIL() << "a dropped pass ran"; });
-        second = addTriangle(graph, first, pipeline);
+        const ImageId second = addTriangle(graph, first, pipeline);
         const ImageId copied = addCopy(graph, "copy", second, out);
         graph.addPass(
             "readback",
@@ -162,6 +161,50 @@ TEST_F(FrameTest, HistoryIsKeptBetweenFrames) {
         ring.submit();
     }
     EXPECT_EQ(target.readRows()[0], std::byte{3}) << "the third frame's value is what the fourth copied";
+}
+
+TEST_F(FrameTest, DepthIsTestedAndCanBeSampledAfterwards) {
+    FrameRing ring(device());
+    FrameExecutor executor(device());
+    OffscreenTarget target(device(), kSize);
+    const GraphicsPipeline pipeline(device(), {.name = "behind",
+                                               .vertex = {shaders::shaders_triangle_vert},
+                                               .fragment = {shaders::shaders_triangle_frag},
+                                               .depthTest = true,
+                                               .depthWrite = true,
+                                               .depthFormat = VK_FORMAT_D32_SFLOAT});
+    // The triangle lies at depth 0.5: drawn over a far plane, hidden by a near one.
+    for (const float plane : {1.0f, 0.25f}) {
+        ring.begin();
+        FrameGraph graph;
+        const ImageId color = graph.importImage("target", target.image());
+        const ImageId depth = graph.addPass(
+            "depth",
+            [&](PassBuilder& pass) {
+                (void)pass.write(color, access::kColorAttachment);
+                return pass.create("depth", {kSize, VK_FORMAT_D32_SFLOAT}, access::kDepthAttachment);
+            },
+            [&pipeline, color, plane](PassContext& context, ImageId depth) {
+                const Attachment colors[] = {{context.view(color), VK_ATTACHMENT_LOAD_OP_CLEAR}};
+                const Attachment depths{context.view(depth), VK_ATTACHMENT_LOAD_OP_CLEAR, {.depthStencil = {plane, 0}}};
+                beginRendering(context.commands(), context.extent(color), colors, depths);
+                pipeline.bind(context.commands());
+                vkCmdDraw(context.commands(), 3, 1, 0, 0);
+                pipeline.warmUp(context.commands());
+                vkCmdEndRenderingKHR(context.commands());
+            });
+        graph.addPass(
+            "reader of depth",
+            [&](PassBuilder& pass) {
+                pass.read(depth, access::kComputeSample);
+                pass.keep();
+            },
+            [](PassContext&) {});
+        executor.run(graph, ring);
+        ring.submit();
+        const size_t bottomLeft = size_t{kSize.width} * (kSize.height - 1) * 4;
+        EXPECT_EQ(target.readRows()[bottomLeft], plane > 0.5f ? std::byte{255} : std::byte{0});
+    }
 }
 
 TEST_F(FrameTest, AbandonedFrameLeavesNothing) {
