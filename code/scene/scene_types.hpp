@@ -1,5 +1,6 @@
 #pragma once
-// What the engine asks for in one frame, in our own types. Handles are those that registration returned; 0 is the default.
+// What the engine asks for in one frame, in our own types. Handles are those that registration returned; 0 is the
+// default.
 
 #include <array>
 #include <cstdint>
