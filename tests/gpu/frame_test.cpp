@@ -32,6 +32,18 @@ ImageId addTriangle(FrameGraph& graph, ImageId target, const GraphicsPipeline& p
     return drawn;
 }
 
+/// A transient image, cleared.
+ImageId addGreen(FrameGraph& graph) {
+    return graph.addPass(
+        "clear", [&](PassBuilder& pass) { return pass.create("first", {kSize}, access::kTransferWrite); },
+        [](PassContext& context, ImageId made) {
+            const VkClearColorValue green{.float32 = {0, 1, 0, 1}};
+            const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+            vkCmdClearColorImage(context.commands(), context.image(made), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &green,
+                                 1, &all);
+        });
+}
+
 ImageId addCopy(FrameGraph& graph, const char* name, ImageId from, ImageId to) {
     ImageId copied;
     graph.addPass(
@@ -96,17 +108,9 @@ TEST_F(FrameTest, FramesInFlightReuseTransientsAndReportTimes) {
         }
         FrameGraph graph;
         const ImageId out = graph.importImage("target", target.image());
-        const GraphImageInfo info{kSize};
-        const ImageId first = graph.addPass(
-            "clear", [&](PassBuilder& pass) { return pass.create("first", info, access::kTransferWrite); },
-            [](PassContext& context, ImageId first) {
-                const VkClearColorValue green{.float32 = {0, 1, 0, 1}};
-                const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-                vkCmdClearColorImage(context.commands(), context.image(first), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                                     &green, 1, &all);
-            });
+        const ImageId first = addGreen(graph);
         graph.addPass(
-            "nobody needs", [&](PassBuilder& pass) { (void)pass.create("unused", info, access::kTransferWrite); },
+            "nobody needs", [&](PassBuilder& pass) { (void)pass.create("unused", {kSize}, access::kTransferWrite); },
             [](PassContext&) { FAIL() << "a dropped pass ran"; });
         const ImageId second = addTriangle(graph, first, pipeline);
         const ImageId copied = addCopy(graph, "copy", second, out);

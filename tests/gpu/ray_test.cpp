@@ -55,20 +55,35 @@ size_t countHits(const std::vector<float>& values, float t) {
     return hits;
 }
 
+constexpr VkBufferUsageFlags kInput =
+    VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+
+/// The triangle (-1, -1), (1, -1), (-1, 1): the half of the grid with x + y < 0.
+struct Triangle {
+    explicit Triangle(Device& device)
+        : vertices(device, {.size = 9 * sizeof(float), .usage = kInput})
+        , indices(device, {.size = 3 * sizeof(uint32_t), .usage = kInput})
+        , geometry{.vertices = vertices.address(), .vertexCount = 3, .indices = indices.address(), .triangleCount = 1} {
+        const uint32_t order[3] = {0, 1, 2};
+        Uploader uploader(device);
+        uploader.upload(indices, std::span<const uint32_t>(order));
+        uploader.flush();
+        moveTo(device, -1);
+    }
+    void moveTo(Device& device, float z) {
+        const float positions[9] = {-1, -1, z, 1, -1, z, -1, 1, z};
+        Uploader uploader(device);
+        uploader.upload(vertices, std::span<const float>(positions));
+        uploader.flush();
+    }
+    Buffer vertices;
+    Buffer indices;
+    TriangleGeometry geometry;
+};
+
 TEST_F(RayTest, RaysHitATriangleAlsoAfterUpdateAndCompaction) {
-    // Lower left half of the grid: pixel centres with x + y < 0. At z = -1: 2 from the rays' origin.
-    const float vertices[3][3] = {{-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}};
-    const uint32_t indices[3] = {0, 1, 2};
-    constexpr VkBufferUsageFlags kInput = VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR |
-                                          VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-    const Buffer vertexBuffer(device(), {.size = sizeof(vertices), .usage = kInput});
-    const Buffer indexBuffer(device(), {.size = sizeof(indices), .usage = kInput});
-    Uploader uploader(device());
-    uploader.upload(vertexBuffer, std::span<const float>(&vertices[0][0], 9));
-    uploader.upload(indexBuffer, std::span<const uint32_t>(indices));
-    uploader.flush();
-    const TriangleGeometry geometry{
-        .vertices = vertexBuffer.address(), .vertexCount = 3, .indices = indexBuffer.address(), .triangleCount = 1};
+    Triangle triangle(device()); // at z = -1: 2 from the rays' origin
+    const TriangleGeometry& geometry = triangle.geometry;
     AccelerationStructure bottom = AccelerationStructure::makeBottom(
         device(), {&geometry, 1}, {.allowUpdate = true, .allowCompaction = true, .name = "triangle"});
     AccelerationStructure top = AccelerationStructure::makeTop(device(), 4, {.name = "scene"});
@@ -103,9 +118,7 @@ TEST_F(RayTest, RaysHitATriangleAlsoAfterUpdateAndCompaction) {
     EXPECT_EQ(countHits(values, 2.0f) + countHits(values, -1.0f), values.size());
 
     // Moved one unit away from the rays, refitted.
-    const float moved[3][3] = {{-1, -1, -2}, {1, -1, -2}, {-1, 1, -2}};
-    uploader.upload(vertexBuffer, std::span<const float>(&moved[0][0], 9));
-    uploader.flush();
+    triangle.moveTo(device(), -2);
     device().submitAndWait([&](VkCommandBuffer commands) {
         recordBuildInputBarrier(commands);
         bottom.recordUpdate(commands, scratch, {&geometry, 1});
