@@ -15,7 +15,7 @@ void TraceRenderer::drawWorldView(FrameGraph& graph, FrameTargets& targets, cons
         graph.importBuffer("structures", ResourceState{}), graph.importBuffer("pixels", buffers.pixels),
         graph.importBuffer("irradiance", buffers.irradiance), graph.importBuffer("radiance", buffers.radiance)};
 
-    addAcceleration(graph, resources, work);
+    if (view.top) addAcceleration(graph, resources, work);
     addPrimary(graph, resources, work);
     addDirect(graph, resources, work);
     addComposite(graph, resources, work);

@@ -1,17 +1,15 @@
 #include "renderer_rt/stage_pipelines.hpp"
 
-#include <string>
-
-#include "base/error.hpp"
-#include "gpu/capabilities.hpp"
 #include "gpu/device.hpp"
 #include "renderer_vk/gpu_context.hpp"
 #include "shaders/shared/rt_output.h"
 #include "spirv/rt_composite_comp.hpp"
+#include "spirv/rt_direct_compute.hpp"
 #include "spirv/rt_direct_query.hpp"
 #include "spirv/rt_direct_rgen.hpp"
 #include "spirv/rt_output_frag.hpp"
 #include "spirv/rt_output_vert.hpp"
+#include "spirv/rt_primary_compute.hpp"
 #include "spirv/rt_primary_query.hpp"
 #include "spirv/rt_primary_rgen.hpp"
 #include "spirv/trace_accept_rahit.hpp"
@@ -27,41 +25,24 @@ namespace {
 
 struct StageCode {
     const char* name;
-    Spirv rayGeneration, query;
+    Spirv rayGeneration, query, compute;
 };
 
 StageCode codeOf(TraceStage stage) {
-    if (stage == TraceStage::Primary) return {"primary", shaders::rt_primary_rgen, shaders::rt_primary_query};
-    return {"direct", shaders::rt_direct_rgen, shaders::rt_direct_query};
+    if (stage == TraceStage::Primary)
+        return {"primary", shaders::rt_primary_rgen, shaders::rt_primary_query, shaders::rt_primary_compute};
+    return {"direct", shaders::rt_direct_rgen, shaders::rt_direct_query, shaders::rt_direct_compute};
 }
 
 size_t indexOf(TraceStage stage) { return static_cast<size_t>(stage); }
 
 } // namespace
 
-const char* nameOf(Backend backend) { return backend == Backend::Pipeline ? "pipeline" : "query"; }
-
-Backend chooseBackend(std::string_view wanted, const Capabilities& can) {
-    const bool pipeline = can.accelerationStructure && can.rayTracingPipeline;
-    const bool query = can.accelerationStructure && can.rayQuery;
-    const std::string device = can.deviceName;
-    if (wanted == "pipeline" || wanted == "auto") {
-        if (pipeline) return Backend::Pipeline;
-        if (wanted == "auto" && query) return Backend::Query;
-        throw DeviceError(device +
-                          " has no ray-tracing pipelines: use cl_renderer vk, another r_device, or a driver with "
-                          "VK_KHR_ray_tracing_pipeline (q3rt doctor lists them)");
-    }
-    if (wanted == "query") {
-        if (query) return Backend::Query;
-        throw DeviceError(device + " has no ray queries: set rt_backend auto");
-    }
-    throw UsageError("rt_backend \"" + std::string(wanted) + "\" is unknown: use auto, pipeline or query");
-}
-
 StagePipelines::StagePipelines(Device& device, Backend backend, VkDescriptorSetLayout textures)
-    : m_backend(backend)
-    , m_structureLayout(device, {{0, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR}}, "traced scene") {
+    : m_backend(backend) {
+    if (usesStructures(backend))
+        m_structureLayout =
+            DescriptorLayout(device, {{0, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR}}, "traced scene");
     const PipelineInterface interface { {textures, m_structureLayout.handle()}, sizeof(RtPush) };
     createTraceStage(device, TraceStage::Primary, interface);
     createTraceStage(device, TraceStage::Direct, interface);
@@ -77,8 +58,9 @@ StagePipelines::StagePipelines(Device& device, Backend backend, VkDescriptorSetL
 
 void StagePipelines::createTraceStage(Device& device, TraceStage stage, const PipelineInterface& interface) {
     const StageCode code = codeOf(stage);
-    if (m_backend == Backend::Query) {
-        m_computeStages[indexOf(stage)] = ComputePipeline(device, {code.name, {code.query, {}}, interface});
+    if (m_backend != Backend::Pipeline) {
+        const Spirv words = m_backend == Backend::Query ? code.query : code.compute;
+        m_computeStages[indexOf(stage)] = ComputePipeline(device, {code.name, {words, {}}, interface});
         return;
     }
     RayTracingPipelineInfo info;
@@ -96,26 +78,29 @@ void StagePipelines::createTraceStage(Device& device, TraceStage stage, const Pi
     m_tracePipelines[indexOf(stage)] = RayTracingPipeline(device, info);
 }
 
+void StagePipelines::bindInput(VkCommandBuffer commands, const Pipeline& pipeline, const StageInput& input) const {
+    pipeline.bind(commands);
+    if (usesStructures(m_backend))
+        pipeline.bindSets(commands, {input.textures, input.structures});
+    else
+        pipeline.bindSets(commands, {input.textures});
+    pipeline.push(commands, input.push);
+}
+
 void StagePipelines::dispatch(VkCommandBuffer commands, TraceStage stage, const StageInput& input) const {
     if (m_backend == Backend::Pipeline) {
         const RayTracingPipeline& pipeline = m_tracePipelines[indexOf(stage)];
-        pipeline.bind(commands);
-        pipeline.bindSets(commands, {input.textures, input.structures});
-        pipeline.push(commands, input.push);
+        bindInput(commands, pipeline, input);
         pipeline.trace(commands, input.extent.width, input.extent.height);
         return;
     }
     const ComputePipeline& pipeline = m_computeStages[indexOf(stage)];
-    pipeline.bind(commands);
-    pipeline.bindSets(commands, {input.textures, input.structures});
-    pipeline.push(commands, input.push);
+    bindInput(commands, pipeline, input);
     pipeline.dispatchOver(commands, input.extent);
 }
 
 void StagePipelines::dispatchComposite(VkCommandBuffer commands, const StageInput& input) const {
-    m_composite.bind(commands);
-    m_composite.bindSets(commands, {input.textures, input.structures});
-    m_composite.push(commands, input.push);
+    bindInput(commands, m_composite, input);
     m_composite.dispatchOver(commands, input.extent);
 }
 

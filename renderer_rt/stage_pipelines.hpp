@@ -3,24 +3,16 @@
 // back end runs it.
 
 #include <array>
-#include <optional>
-#include <string_view>
 
 #include "frame/access.hpp"
 #include "gpu/compute_pipeline.hpp"
 #include "gpu/descriptors.hpp"
 #include "gpu/graphics_pipeline.hpp"
 #include "gpu/ray_tracing_pipeline.hpp"
+#include "renderer_rt/backend.hpp"
 #include "shaders/shared/rt_scene.h"
 
 namespace q3rt {
-
-struct Capabilities;
-
-enum class Backend { Pipeline, Query };
-const char* nameOf(Backend backend);
-/// The back end for rt_backend on this device. Throws UsageError or DeviceError with the remedy if there is none.
-Backend chooseBackend(std::string_view wanted, const Capabilities& capabilities);
 
 /// Stages that trace rays.
 enum class TraceStage { Primary, Direct };
@@ -28,7 +20,8 @@ inline constexpr size_t kTraceStageCount = 2;
 
 /// What a dispatch binds.
 struct StageInput {
-    VkDescriptorSet textures = VK_NULL_HANDLE, structures = VK_NULL_HANDLE;
+    VkDescriptorSet textures = VK_NULL_HANDLE;
+    VkDescriptorSet structures = VK_NULL_HANDLE; ///< null: the back end has none
     RtPush push{};
     VkExtent2D extent{};
 };
@@ -49,6 +42,7 @@ class StagePipelines {
     const Access& structureRead() const;
 
   private:
+    void bindInput(VkCommandBuffer commands, const Pipeline& pipeline, const StageInput& input) const;
     void createTraceStage(Device& device, TraceStage stage, const PipelineInterface& interface);
 
     Backend m_backend;

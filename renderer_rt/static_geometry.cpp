@@ -56,8 +56,8 @@ void StaticGeometry::gather(const World& world, const MaterialLibrary& materials
     }
 }
 
-StaticGeometry::StaticGeometry(Device& device, Uploader& uploader, const World& world,
-                               const MaterialLibrary& materials) {
+StaticGeometry::StaticGeometry(Device& device, Uploader& uploader, const World& world, const MaterialLibrary& materials,
+                               Backend backend) {
     std::vector<PartTriangles> gathered;
     gather(world, materials, gathered);
     std::vector<uint32_t> indices, surfaceOfTriangle;
@@ -80,10 +80,27 @@ StaticGeometry::StaticGeometry(Device& device, Uploader& uploader, const World& 
         m_parts[p].indices = m_indices.address() + firstTriangle[p] * 3 * sizeof(uint32_t);
         m_parts[p].surfaceOfTriangle = m_surfaceOfTriangle.address() + firstTriangle[p] * sizeof(uint32_t);
     }
-    build(device, static_cast<uint32_t>(world.vertices.size()));
+    if (usesStructures(backend))
+        buildStructures(device, static_cast<uint32_t>(world.vertices.size()));
+    else
+        buildTrees(device, uploader, world, indices);
 }
 
-void StaticGeometry::build(Device& device, uint32_t vertexCount) {
+void StaticGeometry::buildTrees(Device& device, Uploader& uploader, const World& world,
+                                std::span<const uint32_t> indices) {
+    size_t first = 0;
+    for (const StaticPart& part : m_parts) {
+        const size_t count = size_t{3} * part.triangleCount;
+        m_trees.add(world.vertices, indices.subspan(first, count), isOpaqueClass(part.surfaceClass));
+        first += count;
+    }
+    m_trees.upload(device, uploader);
+    uploader.flush();
+    for (size_t p = 0; p < m_parts.size(); ++p)
+        m_parts[p].tree = m_trees.get(p);
+}
+
+void StaticGeometry::buildStructures(Device& device, uint32_t vertexCount) {
     AccelerationScratch scratch(device);
     device.submitAndWait([&](VkCommandBuffer commands) {
         recordBuildInputBarrier(commands);
@@ -103,7 +120,7 @@ void StaticGeometry::build(Device& device, uint32_t vertexCount) {
 }
 
 VkDeviceSize StaticGeometry::bytes() const {
-    VkDeviceSize sum = m_vertices.size() + m_indices.size() + m_surfaceOfTriangle.size();
+    VkDeviceSize sum = m_vertices.size() + m_indices.size() + m_surfaceOfTriangle.size() + m_trees.bytes();
     for (const StaticPart& part : m_parts)
         sum += part.structure.size();
     return sum;

@@ -6,6 +6,8 @@
 
 #include "gpu/acceleration_structure.hpp"
 #include "gpu/uploader.hpp"
+#include "renderer_rt/backend.hpp"
+#include "renderer_rt/scene_trees.hpp"
 #include "renderer_rt/surface_class.hpp"
 #include "scene/world.hpp"
 
@@ -18,12 +20,14 @@ struct StaticPart {
     std::vector<uint32_t> surfaces; ///< world surface numbers
     uint32_t triangleCount = 0;
     VkDeviceAddress indices = 0, surfaceOfTriangle = 0;
-    AccelerationStructure structure;
+    AccelerationStructure structure; ///< back ends of the driver
+    TreeAddress tree;                ///< back end `compute`
 };
 
 class StaticGeometry {
   public:
-    StaticGeometry(Device& device, Uploader& uploader, const World& world, const MaterialLibrary& materials);
+    StaticGeometry(Device& device, Uploader& uploader, const World& world, const MaterialLibrary& materials,
+                   Backend backend);
     const std::vector<StaticPart>& parts() const { return m_parts; }
     VkDeviceAddress vertices() const { return m_vertices.address(); }
     uint32_t triangleCount() const { return m_triangleCount; }
@@ -32,9 +36,11 @@ class StaticGeometry {
   private:
     struct PartTriangles;
     void gather(const World& world, const MaterialLibrary& materials, std::vector<PartTriangles>& gathered);
-    void build(Device& device, uint32_t vertexCount);
+    void buildStructures(Device& device, uint32_t vertexCount);
+    void buildTrees(Device& device, Uploader& uploader, const World& world, std::span<const uint32_t> indices);
 
     Buffer m_vertices, m_indices, m_surfaceOfTriangle;
+    StaticTrees m_trees;
     std::vector<StaticPart> m_parts;
     uint32_t m_triangleCount = 0;
 };

@@ -92,12 +92,14 @@ void TraceRenderer::warmPipelines() {
     const TracedView& view = prepareView(frame, scene, kWarmExtent);
     DescriptorArena arena(context().device());
     context().device().submitAndWait([&](VkCommandBuffer commands) {
-        m_scene->recordBuilds(commands, view);
-        const StageInput input{.textures = context().textures().set(),
-                               .structures = arena.make(m_pipelines->structureLayout(),
-                                                        {bindAccelerationStructure(0, view.top->handle())}),
-                               .push = {view.frameSlice.address},
-                               .extent = kWarmExtent};
+        if (view.top) m_scene->recordBuilds(commands, view);
+        StageInput input;
+        input.textures = context().textures().set();
+        if (view.top)
+            input.structures =
+                arena.make(m_pipelines->structureLayout(), {bindAccelerationStructure(0, view.top->handle())});
+        input.push = {view.frameSlice.address};
+        input.extent = kWarmExtent;
         m_pipelines->warm(commands, input);
     });
     m_views.clear();

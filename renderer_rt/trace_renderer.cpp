@@ -61,7 +61,7 @@ void TraceRenderer::onDeviceCreated() {
     Device& device = context().device();
     const Backend backend = chooseBackend(m_settings.rt_backend, device.capabilities());
     m_pipelines = std::make_unique<StagePipelines>(device, backend, context().textures().layout());
-    m_scene = std::make_unique<TracedScene>(context());
+    m_scene = std::make_unique<TracedScene>(context(), backend);
 }
 
 void TraceRenderer::onGpuWorldLoaded() {

@@ -13,8 +13,9 @@ constexpr VkDeviceSize kStreamBytes = VkDeviceSize{4} << 20; ///< at first; it g
 
 } // namespace
 
-TracedScene::TracedScene(GpuContext& context)
+TracedScene::TracedScene(GpuContext& context, Backend backend)
     : m_context(context)
+    , m_backend(backend)
     , m_structures(context.device(), context.ring().framesInFlight())
     , m_stream(context.device(),
                {.size = kStreamBytes, .usage = kStreamUsage, .domain = MemoryDomain::Upload, .name = "traced view"},
@@ -29,7 +30,8 @@ void TracedScene::setContent(const MaterialLibrary& materials, const TextureLibr
 void TracedScene::loadWorld(const World& world) {
     m_world = &world;
     Device& device = m_context.device();
-    m_statics = std::make_unique<StaticGeometry>(device, m_context.uploader(), world, m_builder->materials());
+    m_statics =
+        std::make_unique<StaticGeometry>(device, m_context.uploader(), world, m_builder->materials(), m_backend);
     m_lights = std::make_unique<WorldLights>(device, m_context.uploader(), world, m_builder->materials());
 }
 
@@ -86,10 +88,11 @@ void TracedScene::resolveDynamic(const ViewGeometry& geometry, TracedView& view)
                                          .indices = indices + part.firstIndex * sizeof(uint32_t),
                                          .triangleCount = part.triangleCount,
                                          .opaque = isOpaqueClass(part.surfaceClass)};
+        view.movingTriangleCount += part.triangleCount;
+        if (!usesStructures(m_backend)) continue;
         AccelerationStructure& structure = m_structures.takeBottom(triangles);
         m_dynamicStructures.push_back(&structure);
         view.builds.push_back({&structure, triangles});
-        view.movingTriangleCount += part.triangleCount;
     }
     for (size_t i = 0; i < m_tables.instances.size(); ++i) {
         if (m_tables.sources[i].dynamicPart < 0) continue;
@@ -123,11 +126,40 @@ void TracedScene::makeInstances(const ViewGeometry& geometry, TracedView& view) 
     view.top = &m_structures.takeTop(view.instanceCount);
 }
 
+void TracedScene::makeTrees(const ViewGeometry& geometry, TracedView& view) {
+    m_treeInstances.clear();
+    for (size_t i = 0; i < m_tables.sources.size(); ++i) {
+        const ViewTables::Source& source = m_tables.sources[i];
+        TreeInstance instance;
+        if (source.staticPart >= 0) {
+            instance.tree = m_statics->parts()[static_cast<size_t>(source.staticPart)].tree;
+        } else {
+            const DynamicPart& part = m_tables.parts[static_cast<size_t>(source.dynamicPart)];
+            instance.tree =
+                sendMovingTree(m_stream, std::span(geometry.vertices).subspan(part.firstVertex, part.vertexCount),
+                               std::span(m_tables.indices).subspan(part.firstIndex, size_t{3} * part.triangleCount),
+                               isOpaqueClass(part.surfaceClass));
+        }
+        instance.worldFromModel = geometry.entities[source.entity].worldFromModel;
+        instance.customIndex = static_cast<uint32_t>(i);
+        instance.mask = source.mask;
+        instance.cullBack = source.surfaceClass == SurfaceClass::Solid;
+        m_treeInstances.push_back(instance);
+    }
+    const SceneTree tree = sendSceneTree(m_stream, m_treeInstances);
+    view.instanceCount = static_cast<uint32_t>(m_treeInstances.size());
+    view.frame.treeNodes = tree.nodes;
+    view.frame.treeInstances = tree.instances;
+}
+
 TracedView TracedScene::prepare(const ViewGeometry& geometry, std::span<const SceneLight> lights) {
     TracedView view;
     m_builder->build(m_world, m_statics.get(), geometry, m_tables);
     resolveDynamic(geometry, view);
-    makeInstances(geometry, view);
+    if (usesStructures(m_backend))
+        makeInstances(geometry, view);
+    else
+        makeTrees(geometry, view);
     RtFrame& frame = view.frame;
     frame.instances = send(m_tables.instances);
     frame.surfaces = send(m_tables.surfaces);

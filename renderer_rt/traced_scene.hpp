@@ -15,7 +15,7 @@ namespace q3rt {
 struct TracedView {
     RtFrame frame{}; ///< completed by the caller, then given to finish()
     BufferSlice frameSlice;
-    AccelerationStructure* top = nullptr;
+    AccelerationStructure* top = nullptr; ///< null: the back end has its own trees
     BufferSlice topInstances;
     uint32_t instanceCount = 0;
     struct Build {
@@ -28,7 +28,7 @@ struct TracedView {
 
 class TracedScene {
   public:
-    explicit TracedScene(GpuContext& context);
+    TracedScene(GpuContext& context, Backend backend);
     void setContent(const MaterialLibrary& materials, const TextureLibrary& textures);
     void loadWorld(const World& world);
     void dropContent();
@@ -51,10 +51,12 @@ class TracedScene {
     VkDeviceAddress send(const std::vector<T>& items);
     void resolveDynamic(const ViewGeometry& geometry, TracedView& view);
     void makeInstances(const ViewGeometry& geometry, TracedView& view);
+    void makeTrees(const ViewGeometry& geometry, TracedView& view);
     void sendFogs(RtFrame& frame);
     void sendLights(std::span<const SceneLight> lights, RtFrame& frame);
 
     GpuContext& m_context;
+    Backend m_backend;
     const World* m_world = nullptr;
     std::unique_ptr<StageTable> m_stages;
     std::unique_ptr<ViewTableBuilder> m_builder;
@@ -64,6 +66,7 @@ class TracedScene {
     GrowingBuffer m_stream;
     ViewTables m_tables;
     std::vector<AccelerationStructure*> m_dynamicStructures;
+    std::vector<TreeInstance> m_treeInstances;
 };
 
 } // namespace q3rt

@@ -6,11 +6,14 @@
 namespace q3rt {
 
 inline StageInput makeStageInput(const PassContext& pass, const ViewWork& work) {
-    return {.textures = work.context.textures().set(),
-            .structures =
-                pass.makeSet(work.pipelines.structureLayout(), {bindAccelerationStructure(0, work.view.top->handle())}),
-            .push = {work.view.frameSlice.address},
-            .extent = work.extent};
+    StageInput input;
+    input.textures = work.context.textures().set();
+    if (work.view.top)
+        input.structures = pass.makeSet(work.pipelines.structureLayout(),
+                                        {bindAccelerationStructure(0, work.view.top->handle())});
+    input.push = {work.view.frameSlice.address};
+    input.extent = work.extent;
+    return input;
 }
 
 } // namespace q3rt

@@ -45,8 +45,8 @@ struct BvhInstance {
     BVH_TABLE triangles;    // BvhTriangle[] in leaf order
     uint customIndex;       // what a hit reports
     uint mask;              // met by a ray when mask & rayMask != 0
-    uint reserved0;
-    uint reserved1;
+    uint cullBack;          // 1: rays that look don't meet its back faces
+    uint reserved;
 };
 
 SHARED_END

@@ -36,7 +36,7 @@ bool onBvhTriangle(inout BvhQuery query, BvhInstance instance, BvhTriangle trian
                                            test.barycentric));
         return false;
     }
-    if (query.cullBack && !test.frontFace)
+    if (query.cullBack && instance.cullBack != 0u && !test.frontFace)
         return false;
     if (triangle.opaque == 0u &&
         !acceptHit(instance.customIndex, triangle.number, test.barycentric, test.t, query.direction))

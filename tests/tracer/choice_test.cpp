@@ -47,8 +47,8 @@ TEST(LightChoice, WeightedSumOfChoicesIsTheSumOfAllLights) {
         std::vector<vec3> lights;
         glm::dvec3 all(0.0);
         for (int i = 0; i <= set % 40; ++i) {
-            const vec3 light = i % 7 == 3 ? vec3(0.0f)
-                                          : vec3(strength(generator), strength(generator), strength(generator));
+            const vec3 light =
+                i % 7 == 3 ? vec3(0.0f) : vec3(strength(generator), strength(generator), strength(generator));
             lights.push_back(light);
             all += glm::dvec3(light);
         }

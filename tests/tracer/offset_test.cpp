@@ -1,4 +1,5 @@
-// Rays that leave a surface never meet it again, near the origin and far from it, and start no farther off than the bound.
+// Rays that leave a surface never meet it again, near the origin and far from it, and start no farther off than the
+// bound.
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -87,8 +88,8 @@ TEST(Offset, PositionErrorBoundHoldsAgainstDouble) {
             const Case c = makeCase(generator, distance);
             const shader::HitPoint p = shader::makeHitPoint(c.corner[0], c.corner[1], c.corner[2], c.barycentric);
             const glm::dvec3 a(c.corner[0]), b(c.corner[1]), d(c.corner[2]);
-            const glm::dvec3 exact = a + (b - a) * static_cast<double>(c.barycentric.x) +
-                                     (d - a) * static_cast<double>(c.barycentric.y);
+            const glm::dvec3 exact =
+                a + (b - a) * static_cast<double>(c.barycentric.x) + (d - a) * static_cast<double>(c.barycentric.y);
             for (int k = 0; k < 3; ++k)
                 ASSERT_LE(std::abs(exact[k] - static_cast<double>(p.position[k])), static_cast<double>(p.error[k]));
         }

@@ -11,8 +11,6 @@
 namespace q3rt {
 namespace {
 
-
-
 constexpr int kStrata = 512; ///< a side: 262,144 samples
 
 /// Mean of f(u, v) over jittered strata of the unit square.
@@ -28,8 +26,8 @@ auto meanOverSquare(Function&& f) {
     return sum / static_cast<float>(kStrata * kStrata);
 }
 
-/// Irradiance at the origin (normal +z) under a w x h rectangle at height d whose corner is above the origin, radiance 1:
-/// the corner-patch form factor times pi (Howell, catalog of configuration factors, B-3).
+/// Irradiance at the origin (normal +z) under a w x h rectangle at height d whose corner is above the origin, radiance
+/// 1: the corner-patch form factor times pi (Howell, catalog of configuration factors, B-3).
 double cornerRectangle(double w, double h, double d) {
     const double x = w / d, y = h / d;
     return 0.5 * (x / std::sqrt(1 + x * x) * std::atan(y / std::sqrt(1 + x * x)) +
@@ -106,14 +104,14 @@ TEST(TriangleLight, RectangleGivesItsFormFactor) {
     });
     EXPECT_NEAR(got.x / expected, 1, 1e-3);
     // Seen from behind it gives nothing, unless it is two-sided.
-    EXPECT_EQ(shader::sampleTriangleLight(vec3(0, 0, 200), down, a, b - a, c - a, down, area, vec3(1.0f), false, 0.2f,
-                                          0.2f)
-                  .irradiance,
-              vec3(0.0f));
-    EXPECT_GT(shader::sampleTriangleLight(vec3(0, 0, 200), down, a, b - a, c - a, down, area, vec3(1.0f), true, 0.2f,
-                                          0.2f)
-                  .irradiance.x,
-              0.0f);
+    EXPECT_EQ(
+        shader::sampleTriangleLight(vec3(0, 0, 200), down, a, b - a, c - a, down, area, vec3(1.0f), false, 0.2f, 0.2f)
+            .irradiance,
+        vec3(0.0f));
+    EXPECT_GT(
+        shader::sampleTriangleLight(vec3(0, 0, 200), down, a, b - a, c - a, down, area, vec3(1.0f), true, 0.2f, 0.2f)
+            .irradiance.x,
+        0.0f);
 }
 
 TEST(SphereLight, UnoccludedSphereGivesInverseSquare) {

@@ -15,10 +15,9 @@ refdef_t makeView(const Camera& camera, int width, int height) {
     const double tanX = std::tan(camera.fovX * M_PI / 360);
     view.fov_y = static_cast<float>(std::atan(tanX * height / width) * 360 / M_PI);
     const double yaw = camera.yaw * M_PI / 180, pitch = camera.pitch * M_PI / 180;
-    const double axes[3][3] = {
-        {std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), -std::sin(pitch)},
-        {-std::sin(yaw), std::cos(yaw), 0},
-        {std::sin(pitch) * std::cos(yaw), std::sin(pitch) * std::sin(yaw), std::cos(pitch)}};
+    const double axes[3][3] = {{std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), -std::sin(pitch)},
+                               {-std::sin(yaw), std::cos(yaw), 0},
+                               {std::sin(pitch) * std::cos(yaw), std::sin(pitch) * std::sin(yaw), std::cos(pitch)}};
     for (int i = 0; i < 3; ++i) {
         view.vieworg[i] = camera.eye[i];
         for (int k = 0; k < 3; ++k)

@@ -1,0 +1,23 @@
+#pragma once
+// What traces rays. Shading code never knows; see shaders/trace/trace.glsl.
+
+#include <string_view>
+
+namespace q3rt {
+
+struct Capabilities;
+
+enum class Backend {
+    Pipeline, ///< ray-tracing pipelines
+    Query,    ///< ray queries in compute shaders
+    Compute   ///< our own trees in compute shaders
+};
+const char* nameOf(Backend backend);
+
+/// The back end for rt_backend on this device. Throws UsageError or DeviceError with the remedy if there is none.
+Backend chooseBackend(std::string_view wanted, const Capabilities& capabilities);
+
+/// Do the driver's acceleration structures hold the scene?
+inline bool usesStructures(Backend backend) { return backend != Backend::Compute; }
+
+} // namespace q3rt
