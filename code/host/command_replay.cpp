@@ -23,7 +23,7 @@ struct ReplayArguments {
     int first = -1, count = -1, warmup = 0, accumulate = 1, every = 1;
     CvarList cvars;
     GameChoice game;
-    bool json = false;
+    bool json = false, verbose = false;
 };
 
 /// Where pictures and statistics of drawn frames go.
@@ -96,6 +96,7 @@ void runReplay(const ReplayArguments& arguments) {
     RecordedFiles files(recording, arguments.game);
     FrameOutput output(arguments);
     HeadlessEngine engine(files);
+    engine.showsMessages = arguments.verbose;
     engine.loadModule(findModule(arguments.renderer));
     if (output.wantsStats()) engine.cvars.preset("q3rt_wantStats", "1");
     Replayer replayer(recording, engine, {arguments.size.width, arguments.size.height, arguments.cvars});
@@ -141,6 +142,7 @@ void addReplayCommand(CLI::App& app, int& exitCode) {
     command->add_option("--out", a->out, "Folder for PNG pictures, named by frame number");
     command->add_option("--stats", a->stats, "File for one JSON object a frame");
     command->add_flag("--json", a->json, "Print the summary as one JSON object");
+    command->add_flag("--verbose", a->verbose, "Show the renderer's messages");
     addSetOption(*command, a->cvars);
     addGameOptions(*command, a->game);
     command->callback([a, &exitCode] {

@@ -55,6 +55,7 @@ void runSubset(const SubsetArguments& a) {
         files = openGame(a.game);
     }
     HeadlessEngine engine(*files);
+    engine.showsMessages = false;
     engine.loadModule(findModule("null"));
     if (recording)
         loadTrace(engine, *recording);

@@ -24,7 +24,7 @@ struct ViewArguments {
     int timeMs = 0, frames = 1;
     CvarList cvars;
     GameChoice game;
-    bool json = false;
+    bool json = false, verbose = false;
 };
 
 /// The file that a module writes its radiance to, before the output curve, when the cvar q3rt_radiance names it.
@@ -117,6 +117,7 @@ void runView(const ViewArguments& a) {
         engine.cvars.preset(name, value);
     for (const auto& [name, value] : a.cvars)
         engine.cvars.preset(name, value);
+    engine.showsMessages = a.verbose;
     engine.loadModule(findModule(a.renderer));
     engine.beginRegistration();
     engine.enter([&](const refexport_t& module) { module.LoadWorld(mapFile.c_str()); });
@@ -158,6 +159,7 @@ void addViewCommand(CLI::App& app, int& exitCode) {
         });
     addRendererOption(*command, a->renderer);
     addSizeOption(*command, a->size);
+    command->add_flag("--verbose", a->verbose, "Show the renderer's messages");
     addSetOption(*command, a->cvars);
     command->add_flag("--json", a->json, "Print time and statistics as one JSON object");
     addGameOptions(*command, a->game);

@@ -74,9 +74,8 @@ void addSetOption(CLI::App& command, CvarList& cvars) {
 
 fs::path findModule(const std::string& renderer) {
     const bool isPath = renderer.find('/') != std::string::npos || renderer.ends_with(".so");
-    const Installation installation = findInstallation();
     const fs::path path =
-        isPath ? fs::path(renderer) : installation.programFolder / ("renderer_" + renderer + "_x86_64.so");
+        isPath ? fs::path(renderer) : findInstallation().programFolder / ("renderer_" + renderer + "_x86_64.so");
     if (!fs::exists(path))
         throw UsageError(formatText("%s: no such renderer module; use rt, vk, or the path of a module", path.c_str()));
     return fs::absolute(path);
@@ -171,7 +170,7 @@ void Progress::advance(size_t done) {
     using namespace std::chrono;
     const auto now = steady_clock::now();
     const auto interval = m_terminal ? milliseconds(200) : seconds(5);
-    if (done == 0 || (now - m_last < interval && (done < m_total || !m_shown))) return;
+    if (done == 0 || (now - m_last < interval && (done != m_total || !m_shown))) return;
     m_last = now;
     m_shown = true;
     const double elapsed = duration<double>(now - m_start).count();

@@ -63,10 +63,7 @@ void RecordingWriter::noteEvent(const TraceEvent& event) {
     } else if (std::holds_alternative<event::EndRegistration>(event)) {
         m_worldReady = !m_info.map.empty();
     } else if (std::holds_alternative<event::Shutdown>(event)) {
-        m_worldReady = m_worldSeen = false;
-    } else if (const auto* scene = std::get_if<event::RenderScene>(&event)) {
-        constexpr int32_t kNoWorldModel = 1;
-        if (m_worldReady && !(scene->view.rdflags & kNoWorldModel)) m_worldSeen = true;
+        m_worldReady = false;
     }
 }
 
@@ -89,7 +86,7 @@ void RecordingWriter::dropDrawing() {
 }
 
 void RecordingWriter::closeFrame() {
-    const bool isWorld = m_worldSeen;
+    const bool isWorld = m_worldReady;
     const uint32_t number = m_worldFrames;
     m_worldFrames += isWorld;
     const bool isKept = number >= m_first && (m_count == 0 || number - m_first < m_count);

@@ -56,7 +56,7 @@ class RecordingWriter {
     std::vector<TraceIndexEntry> m_index;
     std::map<std::string, TraceFile> m_files;
     TraceInfo m_info;
-    bool m_worldReady = false, m_worldSeen = false;
+    bool m_worldReady = false; ///< a map is loaded and registration has ended
 };
 
 } // namespace q3rt

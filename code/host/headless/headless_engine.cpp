@@ -5,7 +5,6 @@
 #include <dlfcn.h>
 
 #include "base/error.hpp"
-#include "base/log.hpp"
 #include "host/headless/headless_imports.hpp"
 
 namespace q3rt {

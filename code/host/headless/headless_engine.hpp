@@ -17,6 +17,7 @@
 
 #include "abi/ref_tables.h"
 #include "base/file_source.hpp"
+#include "base/log.hpp"
 #include "host/headless/cvar_table.hpp"
 
 namespace q3rt {
@@ -37,7 +38,8 @@ class HeadlessEngine {
     HeadlessEngine& operator=(const HeadlessEngine&) = delete;
 
     CvarTable cvars;
-    int clockMs = 0; ///< what Milliseconds answers
+    int clockMs = 0;           ///< what Milliseconds answers
+    bool showsMessages = true; ///< false: only the module's errors reach the log
 
     /// Throws UsageError if the file is no renderer module.
     void loadModule(const std::filesystem::path& path);

@@ -33,6 +33,7 @@ void HeadlessImports::bind(HeadlessEngine* engine) { theEngine = engine; }
 
 void HeadlessImports::print(int level, const char* format, ...) {
     theEngine->countImport();
+    if (!theEngine->showsMessages && level != Q3_PRINT_ERROR) return;
     va_list arguments;
     va_start(arguments, format);
     char text[4096];

@@ -141,7 +141,6 @@ void addAdditiveLight(const vec3_t origin, float radius, float r, float g, float
 
 void renderScene(const refdef_t* view) {
     recording.inner.RenderScene(view);
-    watchScene(*view);
     noteEvent(event::RenderScene{*view});
 }
 

@@ -19,7 +19,7 @@ struct Watch {
     int socket = -1;
     long every = 0, lastFrame = 0; ///< 0: no pictures, no end
     int width = 0, height = 0;
-    bool worldReady = false, worldSeen = false, pictureWanted = false;
+    bool worldReady = false, pictureWanted = false;
     int32_t frame = 0; ///< world frames that have ended
     Clock::time_point begin;
     std::vector<byte> capture, encode, picture;
@@ -80,14 +80,7 @@ void watchRegistered(const glconfig_t& config) {
 }
 
 void watchMapState(bool registrationEnded) {
-    if (!watch) return;
-    watch->worldReady = registrationEnded;
-    watch->worldSeen = watch->worldSeen && registrationEnded;
-}
-
-void watchScene(const refdef_t& view) {
-    constexpr int32_t kNoWorldModel = 1;
-    if (watch && watch->worldReady && !(view.rdflags & kNoWorldModel)) watch->worldSeen = true;
+    if (watch) watch->worldReady = registrationEnded;
 }
 
 void watchFrameBegin() {
@@ -95,7 +88,7 @@ void watchFrameBegin() {
 }
 
 void watchFrameEnding() {
-    if (!watch || !watch->worldSeen || watch->every <= 0 || watch->frame % watch->every != 0) return;
+    if (!watch || !watch->worldReady || watch->every <= 0 || watch->frame % watch->every != 0) return;
     const size_t bytes = static_cast<size_t>(watch->width) * static_cast<size_t>(watch->height) * 4 + 64;
     watch->capture.resize(bytes);
     watch->encode.resize(bytes);
@@ -111,7 +104,7 @@ bool watchPicture(const byte* bgr, int size) {
 }
 
 void watchFrameEnded() {
-    if (!watch || !watch->worldSeen) return;
+    if (!watch || !watch->worldReady) return;
     WatchMessage message;
     message.frame = watch->frame++;
     message.wallMs = std::chrono::duration<double, std::milli>(Clock::now() - watch->begin).count();

@@ -9,7 +9,6 @@ void startWatching();
 void stopWatching();
 void watchRegistered(const glconfig_t& config);
 void watchMapState(bool registrationEnded);
-void watchScene(const refdef_t& view);
 void watchFrameBegin();
 /// Before the module's EndFrame: asks for the picture if this frame's is wanted.
 void watchFrameEnding();
