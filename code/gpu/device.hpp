@@ -54,6 +54,8 @@ class Device {
 
     /// Runs `destroy` once the GPU has finished every frame that may use the object. Destructors of handles call it.
     void retire(std::function<void()> destroy);
+    /// Is a frame being recorded (FrameRing::begin() to submit())?
+    bool frameOpen() const { return m_frameOpen; }
     /// Objects waiting for that.
     size_t retiredCount() const { return m_retired.size(); }
 

@@ -18,6 +18,9 @@ constexpr ResourceState kSampled{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS
 // Copies from buffer to image start at multiples of the texel size; 16 covers every format of texelBytes().
 constexpr VkDeviceSize kStageAlignment = 16;
 
+// Loading flushes by itself when this much is staged: a map's textures need not lie in memory twice.
+constexpr VkDeviceSize kMostStagedBytes = VkDeviceSize{64} << 20;
+
 void recordMemoryBarrier(VkCommandBuffer commands, const VkMemoryBarrier2& barrier) {
     VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     dependency.memoryBarrierCount = 1;
@@ -32,6 +35,7 @@ Uploader::Uploader(Device& device, VkDeviceSize chunkBytes)
     , m_chunkBytes(chunkBytes) {}
 
 Uploader::Staged Uploader::stage(std::span<const std::byte> bytes) {
+    if (m_stagedBytes + bytes.size() > kMostStagedBytes && !m_device.frameOpen()) flush();
     m_chunkUsed = (m_chunkUsed + kStageAlignment - 1) & ~(kStageAlignment - 1);
     if (m_chunks.empty() || m_chunkUsed + bytes.size() > m_chunks.back().size()) {
         m_chunks.emplace_back(m_device, BufferInfo{std::max<VkDeviceSize>(m_chunkBytes, bytes.size()),
@@ -42,6 +46,7 @@ Uploader::Staged Uploader::stage(std::span<const std::byte> bytes) {
     std::memcpy(m_chunks.back().mapped() + m_chunkUsed, bytes.data(), bytes.size());
     m_chunkUsed += bytes.size();
     m_uploadedBytes += bytes.size();
+    m_stagedBytes += bytes.size();
     return staged;
 }
 
@@ -124,6 +129,7 @@ void Uploader::record(VkCommandBuffer commands) {
     m_imageCopies.clear();
     m_chunks.clear(); // retired until the frame is done
     m_chunkUsed = 0;
+    m_stagedBytes = 0;
 }
 
 void Uploader::flush() {

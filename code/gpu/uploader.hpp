@@ -25,7 +25,8 @@ class Uploader {
     /// A sub-rectangle of mip 0 (cinematics, scratch images); the rest of the image keeps its texels.
     void uploadRegion(GpuImage& target, VkOffset2D at, VkExtent2D extent, std::span<const std::byte> texels);
 
-    /// Submits all that was added and waits until the device has it; for loading.
+    /// Submits all that was added and waits until the device has it; for loading. Between frames, much staged data is
+    /// flushed early, of itself.
     void flush();
     /// Records all that was added into a frame's commands, before its passes; staging is retired with the frame.
     void record(VkCommandBuffer commands);
@@ -55,6 +56,7 @@ class Uploader {
     Device& m_device;
     VkDeviceSize m_chunkBytes;
     VkDeviceSize m_uploadedBytes = 0;
+    VkDeviceSize m_stagedBytes = 0; // waiting for flush/record
     std::vector<Buffer> m_chunks;
     VkDeviceSize m_chunkUsed = 0;
     std::vector<BufferCopy> m_bufferCopies;

@@ -1,10 +1,13 @@
 // Device memory: blocks grow, are shared, and go back to the driver; per-frame buffers.
 
+#include <algorithm>
 #include <cstring>
 
 #include "gpu/frame_ring.hpp"
 #include "gpu/gpu_image.hpp"
 #include "gpu/growing_buffer.hpp"
+#include "gpu/readback.hpp"
+#include "gpu/uploader.hpp"
 #include "gpu_test.hpp"
 
 namespace q3rt {
@@ -49,6 +52,24 @@ TEST_F(MemoryTest, MappedMemoryIsWhereItSays) {
     }
     const Buffer local(device(), {.size = 256});
     EXPECT_EQ(local.mapped(), nullptr);
+}
+
+TEST_F(MemoryTest, LoadingMuchDoesNotStageItAllAtOnce) {
+    constexpr size_t kBytes = size_t{24} << 20;
+    const std::vector<std::byte> bytes(kBytes, std::byte{9});
+    std::vector<Buffer> targets;
+    Uploader uploader(device());
+    VkDeviceSize mostStaged = 0;
+    for (int i = 0; i < 6; ++i) {
+        targets.emplace_back(device(), BufferInfo{.size = kBytes});
+        uploader.upload(targets.back(), std::span<const std::byte>(bytes));
+        mostStaged = std::max(mostStaged, device().memory().measureUse().usedBytes - targets.size() * kBytes);
+    }
+    uploader.flush();
+    EXPECT_LE(mostStaged, VkDeviceSize{72} << 20);
+    EXPECT_EQ(uploader.uploadedBytes(), 6 * kBytes);
+    EXPECT_EQ(readBuffer(device(), targets[0])[kBytes - 1], std::byte{9});
+    EXPECT_EQ(readBuffer(device(), targets[5])[0], std::byte{9});
 }
 
 TEST_F(MemoryTest, GrowingBufferKeepsSlicesOfItsFrame) {
