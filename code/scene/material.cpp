@@ -103,7 +103,8 @@ Material MaterialLibrary::create(std::string_view name, const std::string& key, 
     }
     const TextureFlags flags{mipRaw, mipRaw, !mipRaw};
     if (const auto image = m_textures.load(name, flags)) return compileImage(withoutExtension(name), *image, context);
-    logLineOnce(LogLevel::Warning, "no shader and no image, default drawn: %.*s", static_cast<int>(name.size()), name.data());
+    logLineOnce(LogLevel::Warning, "no shader and no image, default drawn: %.*s", static_cast<int>(name.size()),
+                name.data());
     Material missing;
     missing.name = withoutExtension(name);
     missing.lightmap = lightmap;

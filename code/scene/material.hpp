@@ -27,17 +27,43 @@ inline constexpr int kNone = -1, kWhite = -2, kByVertex = -3, k2D = -4;
 }
 
 enum class BlendFactor : uint8_t {
-    Zero, One, SrcColor, OneMinusSrcColor, DstColor, OneMinusDstColor, SrcAlpha, OneMinusSrcAlpha, DstAlpha,
-    OneMinusDstAlpha, SrcAlphaSaturate
+    Zero,
+    One,
+    SrcColor,
+    OneMinusSrcColor,
+    DstColor,
+    OneMinusDstColor,
+    SrcAlpha,
+    OneMinusSrcAlpha,
+    DstAlpha,
+    OneMinusDstAlpha,
+    SrcAlphaSaturate
 };
 enum class AlphaTest : uint8_t { None, Greater0, Less128, GreaterEqual128 };
 enum class DepthFunc : uint8_t { LessEqual, Equal, Always };
 enum class CullMode : uint8_t { Front, Back, None }; ///< Front: front-sided, clockwise triangles show
 enum class RgbGen : uint8_t {
-    Identity, IdentityLighting, Constant, Vertex, ExactVertex, OneMinusVertex, Entity, OneMinusEntity, Wave, LightingDiffuse
+    Identity,
+    IdentityLighting,
+    Constant,
+    Vertex,
+    ExactVertex,
+    OneMinusVertex,
+    Entity,
+    OneMinusEntity,
+    Wave,
+    LightingDiffuse
 };
 enum class AlphaGen : uint8_t {
-    Identity, Constant, Vertex, OneMinusVertex, Entity, OneMinusEntity, Wave, LightingSpecular, Portal,
+    Identity,
+    Constant,
+    Vertex,
+    OneMinusVertex,
+    Entity,
+    OneMinusEntity,
+    Wave,
+    LightingSpecular,
+    Portal,
     KeepFromRgb ///< alpha as the rgbGen left it
 };
 enum class TexCoordGen : uint8_t { Texture, Lightmap, Environment, Vector };
@@ -46,14 +72,15 @@ enum class DeformKind : uint8_t { None, Wave, Normal, Move, Bulge, ProjectionSha
 
 struct TexMod {
     TexModKind kind = TexModKind::None;
-    std::array<float, 6> value{}; ///< scale/scroll: 2; transform: m00 m01 m10 m11 t0 t1; rotate: degrees/s; turb: see wave
-    Wave wave;                    ///< turb, stretch
+    std::array<float, 6>
+        value{}; ///< scale/scroll: 2; transform: m00 m01 m10 m11 t0 t1; rotate: degrees/s; turb: see wave
+    Wave wave;   ///< turb, stretch
 };
 
 struct Deform {
     DeformKind kind = DeformKind::None;
     Wave wave;
-    float spread = 0;    ///< wave: 1 / div
+    float spread = 0; ///< wave: 1 / div
     vec3 move{0};
     float bulgeWidth = 0, bulgeHeight = 0, bulgeSpeed = 0;
     int text = 0;
@@ -63,7 +90,7 @@ struct Deform {
 struct TextureUnit {
     std::vector<TextureId> frames; ///< 1, or the animMap's
     float framesPerSecond = 0;
-    int videoSlot = -1;            ///< cinematic handle of videoMap, -1 none
+    int videoSlot = -1; ///< cinematic handle of videoMap, -1 none
     std::string videoName;
     bool isLightmap = false;
     bool isWhite = false;
@@ -149,7 +176,7 @@ struct Material {
     LightDirectives light;
     MaterialId remappedTo = 0; ///< 0: not remapped
     double timeOffsetSeconds = 0;
-    uint32_t sortRank = 0;     ///< position in draw order; kept current by the library
+    uint32_t sortRank = 0; ///< position in draw order; kept current by the library
     /// First of the copies that differ in sortRank only (a page asked for, no lightmap stage): shares its stages.
     MaterialId sharedStages = 0;
     bool usesTime = false, usesEntity = false; ///< what its evaluated stages depend on

@@ -25,7 +25,9 @@ struct StageInputs {
 class StageTable {
   public:
     StageTable(const MaterialLibrary& materials, const TextureLibrary& textures, float identityLight)
-        : m_materials(materials), m_textures(textures), m_identityLight(identityLight) {}
+        : m_materials(materials)
+        , m_textures(textures)
+        , m_identityLight(identityLight) {}
     /// Forgets the last frame. Keeps its memory.
     void beginFrame();
     /// Follows remapping (one level): pass the surface's own material. Materials that share stages share ranges.

@@ -19,7 +19,8 @@ double waveTable(WaveFunction function, int i);
 /// The sine table (period 1023): used by normals, light-grid directions, waves, turb, rotate, bulge.
 float sineTable(int i);
 
-/// Refills the noise tables from the C library's rand(), in the original's order, so that noise waves can agree with it.
+/// Refills the noise tables from the C library's rand(), in the original's order, so that noise waves can agree with
+/// it.
 void seedNoiseFromCRand();
 /// Quadrilinear lattice noise in [-1, 1].
 double latticeNoise(double x, double y, double z, double t);
