@@ -133,11 +133,13 @@ PipelineSet::PipelineSet(Device& device, VkDescriptorSetLayout frameLayout, VkDe
 
 const GraphicsPipeline& PipelineSet::find(const StateKey& key) {
     if (const auto known = m_pipelines.find(key); known != m_pipelines.end()) return known->second;
+    // The vertex shader branches on the stage's data: equal code for all pipelines of a pass is compiled once.
+    const std::vector<uint32_t> vertexConstants = {key.pass, 0, 0, key.clipped ? 1u : 0u};
     const std::vector<uint32_t> constants = {key.pass, static_cast<uint32_t>(key.combine),
                                              static_cast<uint32_t>(key.alphaTest), key.clipped ? 1u : 0u};
     GraphicsPipelineInfo info;
     info.name = "raster";
-    info.vertex = {shaders::vk_raster_vert, constants};
+    info.vertex = {shaders::vk_raster_vert, vertexConstants};
     info.fragment = {shaders::vk_raster_frag, constants};
     info.interface = {{m_frameLayout, m_textureLayout}, sizeof(RasterDraw)};
     info.vertexBindings = {{0, sizeof(Vertex), VK_VERTEX_INPUT_RATE_VERTEX}};

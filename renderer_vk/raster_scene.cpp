@@ -80,7 +80,10 @@ void RasterScene::setContent(const MaterialLibrary& materials, const ModelLibrar
 void RasterScene::setWorld(const World* world) {
     m_builder = std::make_unique<DrawListBuilder>(*m_materials, *m_models, *m_stages, world);
     m_worldVertices = Buffer();
+    m_worldHasPortals = false;
     if (!world) return;
+    m_worldHasPortals = std::ranges::any_of(
+        world->surfaces, [&](const WorldSurface& surface) { return m_materials->get(surface.material).sort <= 1; });
     const std::span<const Vertex> vertices(world->vertices);
     m_worldVertices =
         Buffer(m_context.device(), {.size = vertices.size_bytes(),

@@ -71,6 +71,7 @@ class RasterScene {
     PipelineSet m_pipelines;
     FrameDrawData m_data;
     Buffer m_worldVertices;
+    bool m_worldHasPortals = false; ///< pipelines of portal views are wanted
     GrowingBuffer m_vertexStream, m_indexStream, m_storageStream;
     BufferSlice m_vertexSlice, m_indexSlice, m_stageSlice, m_entitySlice, m_lightSlice, m_fogSlice;
     VkDescriptorSet m_frameSet = VK_NULL_HANDLE;

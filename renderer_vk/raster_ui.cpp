@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/log.hpp"
 #include "gpu/device.hpp"
 #include "renderer_vk/raster_scene.hpp"
 
@@ -107,13 +108,11 @@ void RasterScene::addUi(FrameGraph& graph, FrameTargets& targets, std::span<cons
 
 void RasterScene::warmPipelines() {
     if (!m_materials) return;
-    bool portals = false;
-    for (size_t i = 0; i < m_materials->count(); ++i)
-        portals |= m_materials->get(static_cast<MaterialId>(i)).sort <= 1;
     std::vector<StateKey> fresh;
-    for (const StateKey& key : PipelineSet::statesOf(*m_materials, portals))
+    for (const StateKey& key : PipelineSet::statesOf(*m_materials, m_worldHasPortals))
         if (!m_pipelines.known(key)) fresh.push_back(key);
     if (fresh.empty()) return;
+    logLine(LogLevel::Developer, "%zu raster pipelines to compile", fresh.size());
     // Software drivers compile at the first draw: one triangle of no size in each state makes them do it now.
     Device& device = m_context.device();
     const std::vector<std::byte> zeros(4096);

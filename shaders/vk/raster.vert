@@ -38,7 +38,7 @@ void generateStage() {
         if (fade == kFadeAlpha || fade == kFadeRgba) outColor.a = floor(outColor.a * 255.0 * keep) / 255.0;
     }
     outSt0 = unitCoordinates(stage, 0u, inPosition, inNormal, inSt, inLightmapSt, eye);
-    if (kCombine != kCombineSingle)
+    if (stages[stage].combine != kCombineSingle)
         outSt1 = unitCoordinates(stage, 1u, inPosition, inNormal, inSt, inLightmapSt, eye);
 }
 

@@ -59,7 +59,8 @@ vec2 unitCoordinates(uint stage, uint unit, vec3 position, vec3 normal, vec2 st,
     for (uint i = 0u; i < count; ++i) {
         vec4 m = stages[stage].unit[unit].mods[i].matrix;
         if (stages[stage].unit[unit].mods[i].kind == kModTurb) {
-            result += m.x * vec2(sineTable((position.x + position.z) / 1024.0 + m.y), sineTable(position.y / 1024.0 + m.y));
+            result += m.x * vec2(sineTable((position.x + position.z) / 1024.0 + m.y),
+                                 sineTable(position.y / 1024.0 + m.y));
         } else {
             vec2 shift = stages[stage].unit[unit].mods[i].translate;
             result = vec2(result.x * m.x + result.y * m.z, result.x * m.y + result.y * m.w) + shift;
@@ -72,7 +73,8 @@ vec2 unitCoordinates(uint stage, uint unit, vec3 position, vec3 normal, vec2 st,
 vec2 fogCoordinates(uint fog, vec3 worldPosition) {
     float s = dot(fogs[fog].forward, worldPosition - fogs[fog].eye) * fogs[fog].scale + 1.0 / 512.0;
     float eyeDepth = fogs[fog].eyeDepth;
-    float depth = fogs[fog].hasSurface != 0u ? fogs[fog].planeDistance - dot(fogs[fog].planeNormal, worldPosition) : 0.0;
+    float depth =
+        fogs[fog].hasSurface != 0u ? fogs[fog].planeDistance - dot(fogs[fog].planeNormal, worldPosition) : 0.0;
     float t;
     if (eyeDepth < 0.0)
         t = depth < 1.0 ? 1.0 / 32.0 : 1.0 / 32.0 + (30.0 / 32.0) * depth / (depth - eyeDepth);

@@ -1,4 +1,5 @@
-// The rasteriser on a real device: a map's picture is there, repeats exactly, and the validation layer has nothing to say.
+// The rasteriser on a real device: a map's picture is there, repeats exactly, and the validation layer has nothing to
+// say.
 
 #include <gtest/gtest.h>
 
@@ -51,7 +52,8 @@ SceneView spawnView(const World& world, size_t number) {
 }
 
 /// One frame: the view, and a picture of the console font over it. Rows top first, RGB.
-std::vector<uint8_t> drawFrame(TestRenderer& renderer, test::TestServices& services, const SceneView& view, int shader) {
+std::vector<uint8_t> drawFrame(TestRenderer& renderer, test::TestServices& services, const SceneView& view,
+                               int shader) {
     renderer.beginFrame(0);
     renderer.clearScene();
     renderer.renderScene(view);
@@ -111,13 +113,16 @@ TEST(RasterDraw, MapIsDrawnWithoutValidationMessages) {
     drawFrame(renderer, services, view, shader); // times are known when their frame's slot comes round
     keepImage("spawn0", first);
     size_t bright = 0;
-    for (const uint8_t value : first) bright += value > 16 ? 1u : 0u;
+    for (const uint8_t value : first)
+        bright += value > 16 ? 1u : 0u;
     EXPECT_GT(bright, first.size() / 4) << "the picture is mostly black";
     EXPECT_EQ(first, second) << "the same frame twice gives two pictures";
     EXPECT_NE(services.cvar("q3rt_stats", "", 0).string().find("\"world view\""), std::string::npos);
-    for (const std::string& message : renderer.messages()) ADD_FAILURE() << message;
+    for (const std::string& message : renderer.messages())
+        ADD_FAILURE() << message;
     renderer.shutdownRegistration();
-    for (const std::string& message : renderer.messages()) ADD_FAILURE() << message;
+    for (const std::string& message : renderer.messages())
+        ADD_FAILURE() << message;
 }
 
 } // namespace

@@ -122,7 +122,8 @@ TEST(RasterPortal, RemoteCameraLooksAlongItsEntity) {
     // The eye stands 200 units before the surface: as far behind the camera, which looks along +x.
     EXPECT_NEAR(glm::distance(portal->eye.axis[0], vec3(1, 0, 0)), 0.0f, kTolerance);
     EXPECT_NEAR(glm::distance(portal->eye.origin, camera - vec3(200, 0, 0)), 0.0f, kTolerance);
-    EXPECT_NEAR(glm::distance(glm::cross(portal->eye.axis[0], portal->eye.axis[1]), portal->eye.axis[2]), 0.0f, kTolerance);
+    EXPECT_NEAR(glm::distance(glm::cross(portal->eye.axis[0], portal->eye.axis[1]), portal->eye.axis[2]), 0.0f,
+                kTolerance);
 }
 
 TEST(RasterPortal, HiddenAndFarSurfacesGiveNoView) {
@@ -151,7 +152,8 @@ TEST(RasterSky, CoverageIsRoundedOutwardToBlocks) {
     EXPECT_EQ(range.lastS, 6);
     EXPECT_EQ(range.firstT, 4);
     EXPECT_EQ(range.lastT, 6);
-    for (int face = 1; face < kSkyFaces; ++face) EXPECT_TRUE(coverage.blocks(face).empty()) << face;
+    for (int face = 1; face < kSkyFaces; ++face)
+        EXPECT_TRUE(coverage.blocks(face).empty()) << face;
 }
 
 TEST(RasterSky, BlocksShowClockwiseFromTheEye) {
