@@ -32,11 +32,12 @@ struct EntitySurface {
     uint32_t firstVertex = 0, vertexCount = 0;
     uint32_t firstIndex = 0, indexCount = 0; ///< in ViewGeometry::indices, absolute vertex numbers
     bool isPoly = false;                     ///< sorts as the world
-    int worldSurface = -1;                ///< the deformed world surface it replaces (draw this, not that one), -1 none
-    const ModelSurface* source = nullptr; ///< model surface it came from, for caching
-    int frame = 0, oldFrame = 0;          ///< of `source`, valid frame numbers
-    float backLerp = 0;                   ///< weight of oldFrame; 0 when the frames are equal
-    bool deformed = false;                ///< vertices are not those of `source` at these frames: don't cache
+    int worldSurface = -1; ///< the deformed world surface it replaces (draw this, not that one), -1 none
+    /// Model surface it came from, for caching; stays valid as long as its ModelLibrary, registrations included.
+    const ModelSurface* source = nullptr;
+    int frame = 0, oldFrame = 0; ///< of `source`, valid frame numbers
+    float backLerp = 0;          ///< weight of oldFrame; 0 when the frames are equal
+    bool deformed = false;       ///< vertices are not those of `source` at these frames: don't cache
 };
 
 struct ViewGeometry {
