@@ -128,6 +128,8 @@ std::optional<HostFrame> HeadlessEngine::endFrame(bool capture) {
     byte* const encodeBytes = encoded.data();
     m_frameArrived = false;
     enter([=](const refexport_t& module) {
+        // The OpenGL renderers read the picture before their last run of pictures is drawn: an empty one ends that run.
+        module.DrawStretchPic(0, 0, 0, 0, 0, 0, 0, 0, 0);
         module.TakeVideoFrame(width, height, captureBytes, encodeBytes, 0);
         module.EndFrame(nullptr, nullptr);
     });
