@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gpu/device.hpp"
+#include "renderer_rt/grid_light.hpp"
 #include "shaders/shared/constants.h"
 
 namespace q3rt {
@@ -57,9 +58,7 @@ std::vector<RtNode> makeNodes(const World& world) {
 /// Luxel units of a grid value: the grid is shifted so that 255 shows a texture at its own brightness.
 constexpr float kLuxelOfGridValue = kWhiteIrradiance / 255.0f;
 
-/// Where an extracted light can reach a cell, the directed part of the grid is that light and must not count twice;
-/// elsewhere its light was lost with the map's source, and the directed part is all that is known of it.
-std::vector<RtGridCell> makeGrid(const World& world, const std::vector<RtLightRow>& rows, bool anyOther) {
+std::vector<RtGridCell> makeGrid(const World& world) {
     std::vector<RtGridCell> cells;
     const LightGrid& grid = world.grid;
     for (int z = 0; z < grid.counts.z; ++z)
@@ -67,14 +66,9 @@ std::vector<RtGridCell> makeGrid(const World& world, const std::vector<RtLightRo
             for (int x = 0; x < grid.counts.x; ++x) {
                 const vec3 point = grid.origin + grid.cellSize * vec3(x, y, z);
                 const GridLight light = grid.sample(point);
-                const int cluster = world.clusterOf(point);
-                const RtLightRow& row =
-                    rows[cluster >= 0 && static_cast<size_t>(cluster) + 1 < rows.size() ? static_cast<size_t>(cluster)
-                                                                                        : rows.size() - 1];
-                const bool reached = row.count > 0 || (anyOther && row.seesSky != 0);
                 RtGridCell cell{};
                 cell.ambient = light.ambient * kLuxelOfGridValue;
-                cell.directed = reached ? vec3(0.0f) : light.directed * kLuxelOfGridValue;
+                cell.directed = light.directed * kLuxelOfGridValue;
                 cell.direction = light.direction;
                 cell.valid = light.ambient != vec3(0.0f) ? 1 : 0;
                 cells.push_back(cell);
@@ -161,13 +155,14 @@ LightTables buildLightTables(const World& world, const LightSet& lights, const s
                                .count = table.offset[r + 1] - table.offset[r],
                                .seesSky = r < seesSky.size() ? (seesSky[r] ? 1u : 0u) : 1u});
     tables.nodes = makeNodes(world);
-    tables.grid = makeGrid(world, tables.rows, !tables.others.empty());
+    tables.grid = makeGrid(world);
     return tables;
 }
 
 WorldLights::WorldLights(Device& device, Uploader& uploader, const World& world, const MaterialLibrary& materials) {
     const LightSet lights = extractLights(world, materials);
-    const LightTables tables = buildLightTables(world, lights, findSkyClusters(world, materials));
+    LightTables tables = buildLightTables(world, lights, findSkyClusters(world, materials));
+    explainGrid(world, materials, tables);
     m_others = tables.others;
     m_triangles = makeTable(device, uploader, tables.triangles, "triangle lights");
     m_rows = makeTable(device, uploader, tables.rows, "light rows");

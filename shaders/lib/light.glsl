@@ -106,10 +106,9 @@ LightChoice emptyChoice()
     return choice;
 }
 
-// `random` in [0, 1). A candidate that stands for `multiplicity` lights brings it in its irradiance.
-LightChoice considerLight(LightChoice choice, LightSample candidate, float random)
+// `random` in [0, 1). Any weight will do that is positive wherever the irradiance is: only the noise depends on it.
+LightChoice considerWeighted(LightChoice choice, LightSample candidate, float weight, float random)
 {
-    float weight = lightWeight(candidate.irradiance);
     if (!(weight > 0.0f))
         return choice;
     choice.weightSum += weight;
@@ -119,6 +118,12 @@ LightChoice considerLight(LightChoice choice, LightSample candidate, float rando
         choice.weight = weight;
     }
     return choice;
+}
+
+// A candidate that stands for several lights brings their number in its irradiance.
+LightChoice considerLight(LightChoice choice, LightSample candidate, float random)
+{
+    return considerWeighted(choice, candidate, lightWeight(candidate.irradiance), random);
 }
 
 vec3 chosenIrradiance(LightChoice choice)

@@ -1,4 +1,5 @@
-// Direct illumination stage, shadow rays of one pixel: back ends `query` and `compute` (BACKEND_QUERY, BACKEND_COMPUTE).
+// Direct illumination stage, shadow rays of one pixel: back ends `query` and `compute` (BACKEND_QUERY,
+// BACKEND_COMPUTE).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #ifdef BACKEND_QUERY

@@ -6,6 +6,8 @@
 #include "rt/grid.glsl"
 #include "rt/lights.glsl"
 
+const float kLeastSkyChance = 0.0625;
+
 vec3 shadowed(ShadingPoint point, vec3 irradiance, vec3 direction)
 {
     if (lightWeight(irradiance) <= 0.0)
@@ -31,7 +33,7 @@ vec3 sumAllLights(ShadingPoint point, RtLightRow row, uvec4 key)
 }
 
 // Candidates are all lights of a short row; of a long one, a random light out of each of `candidates` equal shares.
-LightChoice chooseLight(ShadingPoint point, RtLightRow row, uvec4 key, uint choiceNumber)
+LightChoice chooseLight(ShadingPoint point, RtLightRow row, float skySeen, uvec4 key, uint choiceNumber)
 {
     LightChoice choice = emptyChoice();
     uint candidates = min(row.count, rtFrame.candidatesPerChoice);
@@ -49,7 +51,9 @@ LightChoice chooseLight(ShadingPoint point, RtLightRow row, uvec4 key, uint choi
     }
     for (uint i = 0u; i < rtFrame.lightCount; ++i) {
         vec4 random = randomNumbers(key, dimension + rtFrame.triangleLightCount + i);
-        choice = considerLight(choice, sampleOther(i, point, random.xy, row.seesSky != 0u), random.z);
+        LightSample lit = sampleOther(i, point, random.xy, row.seesSky != 0u);
+        bool fromSky = LightTable(rtFrame.lights).at[i].kind != kLightSphere;
+        choice = considerWeighted(choice, lit, lightWeight(lit.irradiance) * (fromSky ? skySeen : 1.0), random.z);
     }
     return choice;
 }
@@ -66,17 +70,20 @@ void directPixel(uvec2 pixelPosition)
         point.normal = pixel.normal;
         RtLightRow row = LightRowTable(rtFrame.lightRows).at[lightRowOf(point.origin)];
         uvec4 key = randomKey(pixelPosition);
+        GridSample grid = sampleGrid(point.origin, point.normal);
+        // Where the grid saw no sky a thin chance stays: its cells are coarse.
+        float skySeen = max(grid.skySeen, kLeastSkyChance);
         vec3 irradiance = vec3(0.0);
         if (rtFrame.lightsPerPixel == 0u) {
             irradiance = sumAllLights(point, row, key);
         } else {
             for (uint n = 0u; n < rtFrame.lightsPerPixel; ++n) {
-                LightChoice choice = chooseLight(point, row, key, n);
+                LightChoice choice = chooseLight(point, row, skySeen, key, n);
                 irradiance += shadowed(point, chosenIrradiance(choice), choice.direction);
             }
             irradiance /= float(rtFrame.lightsPerPixel);
         }
-        light = (irradiance + ambientIrradiance(point.origin, point.normal) * rtFrame.ambient) / kWhiteIrradiance;
+        light = (irradiance + grid.irradiance * rtFrame.ambient) / kWhiteIrradiance;
     }
     ColorTable(rtFrame.irradiance).at[index] = vec4(light, 1.0);
 }

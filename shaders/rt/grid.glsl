@@ -5,11 +5,18 @@
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer GridTable { RtGridCell at[]; };
 
-// Trilinear over the cells that are not inside walls, in luxel units; 0 where the map has no grid.
-vec3 ambientIrradiance(vec3 point, vec3 normal)
+struct GridSample {
+    vec3 irradiance; // luxel units
+    float skySeen;   // [0, 1]
+};
+
+// Trilinear over the cells that are not inside walls; no light, and all of the sky, where there are none.
+GridSample sampleGrid(vec3 point, vec3 normal)
 {
+    GridSample result = GridSample(vec3(0.0), 1.0);
     if ((rtFrame.flags & kFrameGrid) == 0u)
-        return vec3(0.0);
+        return result;
+    float skySeen = 0.0;
     vec3 v = (point - rtFrame.gridOrigin) / rtFrame.gridCellSize;
     ivec3 cell = clamp(ivec3(floor(v)), ivec3(0), rtFrame.gridCounts - 1);
     vec3 f = clamp(v - vec3(cell), vec3(0.0), vec3(1.0));
@@ -21,18 +28,22 @@ vec3 ambientIrradiance(vec3 point, vec3 normal)
         if (any(greaterThanEqual(at, rtFrame.gridCounts)))
             continue;
         vec3 axisWeights = mix(1.0 - f, f, vec3(step));
-        RtGridCell sampled = GridTable(rtFrame.grid).at[at.x + rtFrame.gridCounts.x * (at.y + rtFrame.gridCounts.y * at.z)];
+        int cellIndex = at.x + rtFrame.gridCounts.x * (at.y + rtFrame.gridCounts.y * at.z);
+        RtGridCell sampled = GridTable(rtFrame.grid).at[cellIndex];
         float weight = axisWeights.x * axisWeights.y * axisWeights.z * float(sampled.valid);
         ambient += sampled.ambient * weight;
         directed += sampled.directed * weight;
         direction += sampled.direction * weight;
+        skySeen += sampled.skySeen * weight;
         total += weight;
     }
     if (total <= 0.0)
-        return vec3(0.0);
+        return result;
     float size2 = dot(direction, direction);
     float facing = size2 > 0.0 ? max(0.0, dot(normal, direction) * inversesqrt(size2)) : 0.0;
-    return (ambient + directed * facing) / total;
+    result.irradiance = (ambient + directed * facing) / total;
+    result.skySeen = skySeen / total;
+    return result;
 }
 
 #endif

@@ -6,7 +6,9 @@
 #include "lib/random.glsl"
 #include "rt/scene.glsl"
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer TriangleLightTable { RtTriangleLight at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer TriangleLightTable {
+    RtTriangleLight at[];
+};
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightRowTable { RtLightRow at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightTable { RtLight at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer NodeTable { RtNode at[]; };
@@ -43,8 +45,8 @@ struct ShadingPoint {
 LightSample sampleTriangle(uint light, ShadingPoint point, vec2 random)
 {
     RtTriangleLight l = TriangleLightTable(rtFrame.triangleLights).at[light];
-    LightSample result = sampleTriangleLight(point.origin, point.normal, l.corner, l.edge1, l.edge2, l.normal, l.areaQu2,
-                                             l.radiance, l.twoSided != 0u, random.x, random.y);
+    LightSample result = sampleTriangleLight(point.origin, point.normal, l.corner, l.edge1, l.edge2, l.normal,
+                                             l.areaQu2, l.radiance, l.twoSided != 0u, random.x, random.y);
     // The ray ends in front of the light by the bound of the sampled point's error and of the ray's own rounding.
     float side = dot(l.normal, result.direction) < 0.0 ? 1.0 : -1.0;
     float end = l.error + dot(abs(result.direction), vec3(kTransformError));
@@ -58,7 +60,8 @@ LightSample sampleOther(uint light, ShadingPoint point, vec2 random, bool seesSk
     LightSample result;
     if (l.kind == kLightSphere) {
         result = sampleSphereLight(point.origin, point.normal, l.position,
-                                   (rtFrame.flags & kFrameSoftShadows) != 0u ? l.size : 0.0, l.power, random.x, random.y);
+                                   (rtFrame.flags & kFrameSoftShadows) != 0u ? l.size : 0.0, l.power, random.x,
+                                   random.y);
         if (l.cosOuter > -1.0 && dot(normalize(result.direction), -l.axis) < l.cosOuter)
             result.irradiance = vec3(0.0);
         return result;

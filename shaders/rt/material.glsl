@@ -135,7 +135,8 @@ MaterialColor shadeSurface(SurfacePoint point)
 bool isCovered(SceneTriangle triangle, RtSurface surface, vec2 barycentric)
 {
     VertexTable vertices = VertexTable(triangle.vertices);
-    Vertex v0 = vertices.at[triangle.vertex.x], v1 = vertices.at[triangle.vertex.y], v2 = vertices.at[triangle.vertex.z];
+    Vertex v0 = vertices.at[triangle.vertex.x], v1 = vertices.at[triangle.vertex.y];
+    Vertex v2 = vertices.at[triangle.vertex.z];
     vec4 c0 = unpackUnorm4x8(v0.color), c1 = unpackUnorm4x8(v1.color), c2 = unpackUnorm4x8(v2.color);
     vec3 position =
         v0.position + (v1.position - v0.position) * barycentric.x + (v2.position - v0.position) * barycentric.y;
@@ -146,10 +147,12 @@ bool isCovered(SceneTriangle triangle, RtSurface surface, vec2 barycentric)
         StageState stage = loadStage(surface.firstStage + i);
         if (stage.blended != 0u || stage.depthEqual != 0u)
             continue;
-        vec4 texel0 = sampleUnit(stage.unit[0], unitCoordinates(stage.unit[0], vertex, entity.eye), vec2(0.0), vec2(0.0));
+        vec4 texel0 = sampleUnit(stage.unit[0],
+                                 unitCoordinates(stage.unit[0], vertex, entity.eye), vec2(0.0), vec2(0.0));
         vec4 texel1 = vec4(1.0);
         if (stage.combine != kCombineSingle)
-            texel1 = sampleUnit(stage.unit[1], unitCoordinates(stage.unit[1], vertex, entity.eye), vec2(0.0), vec2(0.0));
+            texel1 = sampleUnit(stage.unit[1],
+                                unitCoordinates(stage.unit[1], vertex, entity.eye), vec2(0.0), vec2(0.0));
         float alpha = combineTexels(stage.combine, stageColor(stage, vertex, entity), texel0, texel1).a;
         if (passesAlphaTest(stage.alphaTest, alpha))
             return true;

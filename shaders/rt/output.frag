@@ -13,5 +13,6 @@ void main()
 {
     uvec2 pixel = uvec2(gl_FragCoord.xy) - push.corner;
     vec3 radiance = RadianceTable(push.radiance).at[pixel.y * push.width + pixel.x].rgb * push.exposure;
-    color = vec4(push.curve == kCurveFilmic ? reinhardKeepingHue(radiance, push.white) : clampKeepingHue(radiance), 1.0);
+    color = vec4(push.curve == kCurveFilmic ? reinhardKeepingHue(radiance, push.white) : clampKeepingHue(radiance),
+                 1.0);
 }

@@ -61,8 +61,8 @@ void addHit(inout Picture picture, CameraRay ray, uint instance, uint triangle, 
     addLayer(picture, point, shadeSurface(point), random);
 }
 
-// All layers in (0, tMax] in front of `limit` in drawing order, in batches. Each batch ends after a larger key, and there
-// are finitely many layers: the loop ends. It also ends where nothing behind can show any more.
+// All layers in (0, tMax] in front of `limit` in drawing order, in batches. Each batch ends after a larger key, and
+// there are finitely many layers: the loop ends. It also ends where nothing behind can show any more.
 void addLayers(inout Picture picture, CameraRay ray, uint mask, float tMax, float limit, uvec4 key)
 {
     LayerKey after = LayerKey(0.0, 0u, 0u);
@@ -84,8 +84,8 @@ void addLayers(inout Picture picture, CameraRay ray, uint mask, float tMax, floa
 }
 
 // One depth range: layers and solids by turns until nothing behind shows. A solid that lets something through (the
-// accept function samples the finest texels, shading the filtered ones) is passed at the next number after its distance.
-// Returns the first solid's distance, 0 if there is none.
+// accept function samples the finest texels, shading the filtered ones) is passed at the next number after its
+// distance. Returns the first solid's distance, 0 if there is none.
 float addRange(inout Picture picture, CameraRay ray, uint solidMask, uint layerMask, uvec4 key)
 {
     float first = 0.0;

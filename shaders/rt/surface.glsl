@@ -51,8 +51,8 @@ vec3 pointToWorld(RtEntity entity, vec3 p)
 
 vec2 interpolate(vec2 a, vec2 b, vec2 c, vec2 weights) { return a + (b - a) * weights.x + (c - a) * weights.y; }
 
-// From the hit to where a neighbouring ray meets the triangle's plane, in weights of corners 1 and 2. A ray that passes the
-// plane (or a triangle without area) has no footprint: the finest texels are taken.
+// From the hit to where a neighbouring ray meets the triangle's plane, in weights of corners 1 and 2. A ray that
+// passes the plane (or a triangle without area) has no footprint: the finest texels are taken.
 vec2 stepOnPlane(vec3 p0, vec3 p1, vec3 p2, vec3 origin, vec3 direction, vec2 barycentric)
 {
     vec2 step = planeBarycentric(p0, p1, p2, origin, direction) - barycentric;

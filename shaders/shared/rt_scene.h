@@ -113,6 +113,7 @@ struct RtGridCell {
     uint valid;   // 0: inside a wall
     vec3 directed;
     vec3 direction; // toward the light, as stored: not unit after interpolation
+    float skySeen;  // share of the suns' and the sky's light that arrives here, [0, 1]: a guide for choosing lights
 };
 
 struct RtSky {

@@ -1,0 +1,12 @@
+#pragma once
+// What of the map's light grid the extracted lights explain, so that no light counts twice: the directed part of a cell
+// loses what they give there, shadows included. What stays is the light that was lost with the map's source.
+
+#include "renderer_rt/world_lights.hpp"
+
+namespace q3rt {
+
+/// Changes `directed` and sets `skySeen` of every cell of `tables.grid`.
+void explainGrid(const World& world, const MaterialLibrary& materials, LightTables& tables);
+
+} // namespace q3rt
