@@ -1,5 +1,5 @@
-# q3rt_module(NAME LINK libraries... [SOURCES files...]): a renderer module for the engine, from module.cpp of the current
-# folder. It comes under two names, because upstream dropped the architecture suffix after 2025:
+# q3rt_module(NAME LINK libraries... [SOURCES files...]): a renderer module for the engine, from module.cpp of the
+# current folder. It comes under two names, because upstream dropped the architecture suffix after 2025:
 # renderer_NAME_x86_64.so and renderer_NAME.so (one file).
 function(q3rt_module name)
   cmake_parse_arguments(ARG "" "" "LINK;SOURCES" ${ARGN})

@@ -143,17 +143,21 @@ void receiveFrames(int socket, const std::function<void(const WatchedFrame&)>& o
     }
 }
 
-/// The last line of the engine's console that names an error, without its ornaments.
+/// What the engine's console says about its end, without ornaments.
 std::string lastError(const fs::path& console) {
     const std::vector<std::byte> bytes = readFileBytes(console);
     const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    constexpr std::string_view kCrash = "(Client fatal crashed: ", kCrashEnd = ") -----";
+    if (const size_t crash = text.rfind(kCrash); crash != std::string::npos) {
+        const size_t start = crash + kCrash.size();
+        return text.substr(start, text.find(kCrashEnd, start) - start);
+    }
     std::string found;
     for (size_t start = 0; start < text.size();) {
         const size_t end = std::min(text.find('\n', start), text.size());
         const std::string line = text.substr(start, end - start);
-        if (line.starts_with("ERROR: ") || line.starts_with("recording ended") ||
-            line.starts_with("renderer_q3trecord"))
-            found = line;
+        for (const char* beginning : {"ERROR: ", "^1recording ended", "recording ended", "renderer_q3trecord"})
+            if (line.starts_with(beginning)) found = line;
         start = end + 1;
     }
     return found;

@@ -17,6 +17,7 @@
 #include "formats/text_case.hpp"
 #include "support/game_data.hpp"
 #include "support/tiny_files.hpp"
+#include "trace/recording_writer.hpp"
 
 namespace q3rt::test {
 namespace {
@@ -140,12 +141,45 @@ void addGameData(Corpus& corpus, Pk3FileSource& files) {
     }
 }
 
+/// A whole small recording, and its events bare: the target reads either.
+void addRecording(Corpus& corpus, const fs::path& folder) {
+    const fs::path path = folder / "seed.q3t";
+    fs::create_directories(folder);
+    std::vector<std::byte> bare;
+    {
+        RecordingWriter writer(path);
+        const auto add = [&](TraceEvent event) {
+            encodeEvent(event, bare);
+            writer.add(std::move(event));
+        };
+        add(event::BeginRegistration{640, 480, 1});
+        add(event::Register{event::HandleKind::Model, "models/m.md3", 1});
+        add(event::LoadWorld{"maps/a.bsp"});
+        add(event::EndRegistration{});
+        add(event::AddEntity{});
+        add(event::AddPolys{1, 3, std::vector<polyVert_t>(3)});
+        add(event::MarkFragments{{{}, {}, {}}, {0, 0, -1}, 384, 128, {{}}, {{0, 1}}});
+        add(event::Cinematic{1, 0, 0, 8, 8, 1, 1, 0, 1, -1, std::vector<uint8_t>(4)});
+        add(event::RenderScene{});
+        add(event::EndFrame{});
+        writer.addFile({"maps/a.bsp", 1, 2});
+        writer.finish();
+    }
+    std::ifstream file(path, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    corpus.add("recording", toBytes(bytes));
+    corpus.add("recording", bare);
+    file.close();
+    fs::remove(path);
+}
+
 int run(const fs::path& folder) {
     try {
         fs::remove_all(folder);
         Corpus corpus(folder);
         addTinyFiles(corpus);
         addArchive(corpus);
+        addRecording(corpus, folder);
         if (const auto files = openGameData()) addGameData(corpus, *files);
         std::printf("%zu seeds in %s\n", corpus.count(), folder.c_str());
         return 0;

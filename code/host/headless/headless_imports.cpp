@@ -125,7 +125,7 @@ void HeadlessImports::addCvarImports(refimport_t& t) {
         theEngine->m_commands[name] = command;
     };
     t.Cmd_RemoveCommand = [](const char* name) {
-        theEngine->countImport();
+        // Not counted: the engine's own can't fail.
         theEngine->m_commands.erase(name);
     };
     t.Cmd_Argc = []() -> int {
