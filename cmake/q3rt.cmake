@@ -16,7 +16,8 @@ function(q3rt_library name)
   target_link_libraries(${name} PUBLIC ${ARG_LINK})
 endfunction()
 
-# q3rt_test(NAME LINK dependencies...): a GoogleTest program of all .cpp files of the current folder; each case is a ctest.
+# q3rt_test(NAME LINK dependencies...): a GoogleTest program of all .cpp files of the current folder; each case is a
+# ctest.
 function(q3rt_test name)
   cmake_parse_arguments(ARG "" "" "LINK;LABELS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
@@ -27,5 +28,6 @@ function(q3rt_test name)
   target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gtest GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE Q3RT_SOURCE_DIR="${CMAKE_SOURCE_DIR}" Q3RT_BUILD_DIR="${CMAKE_BINARY_DIR}")
   add_test(NAME ${name} COMMAND ${name} --gtest_brief=1 WORKING_DIRECTORY ${CMAKE_BINARY_DIR})
-  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 900 SKIP_REGULAR_EXPRESSION "ALL TESTS SKIPPED")
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 900
+                       SKIP_REGULAR_EXPRESSION "ALL TESTS SKIPPED")
 endfunction()

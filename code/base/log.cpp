@@ -40,7 +40,10 @@ void emitLine(LogLevel level, const std::string& line) {
     if (sink)
         sink(level, line);
     else if (level != LogLevel::Developer)
-        std::fprintf(stderr, "%s%s\n", level == LogLevel::Warning ? "warning: " : level == LogLevel::Error ? "error: " : "",
+        std::fprintf(stderr, "%s%s\n",
+                     level == LogLevel::Warning ? "warning: "
+                     : level == LogLevel::Error ? "error: "
+                                                : "",
                      line.c_str());
 }
 

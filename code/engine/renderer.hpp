@@ -59,8 +59,8 @@ class Renderer {
     virtual void setColor(const std::optional<vec4>& color) = 0;
     virtual void drawPicture(float x, float y, float width, float height, float s1, float t1, float s2, float t2,
                              int shader) = 0;
-    virtual void drawCinematic(int x, int y, int width, int height, int columns, int rows, const uint8_t* rgba, int slot,
-                               bool dirty) = 0;
+    virtual void drawCinematic(int x, int y, int width, int height, int columns, int rows, const uint8_t* rgba,
+                               int slot, bool dirty) = 0;
     virtual void uploadCinematic(int columns, int rows, const uint8_t* rgba, int slot, bool dirty) = 0;
     virtual void beginFrame(int stereoEye) = 0;
     struct FrameTimes {

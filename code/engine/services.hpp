@@ -1,7 +1,7 @@
 #pragma once
 // What a renderer may ask of whoever hosts it: the engine, or our own headless host. Implementations are allowed to
-// throw; under the engine an import that jumps is turned into an exception by the guard (engine/guard.hpp), so code that
-// calls these may own anything.
+// throw; under the engine an import that jumps is turned into an exception by the guard (engine/guard.hpp), so code
+// that calls these may own anything.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,10 +1,11 @@
 // Ray against box and triangle, robust at the extremes. Pure functions; C++ tests include this text.
 //
-// Triangle: signed volumes of the ray's line and each edge (Pluecker test; Shevtsov et al. 2007, "Ray-Triangle Intersection
-// Algorithm for Modern CPU Architectures"; the form is Embree's robust one, described by Benthin 2006). The volume of a
-// shared edge is the same number with the opposite sign in both triangles, because its two factors are a difference and
-// a sum of the same two corners: rounding cannot open a gap between neighbours (watertight), and no epsilon is needed.
-// Box: slabs with the far side widened by the rounding of three operations (Ize 2013, "Robust BVH Ray Traversal").
+// Triangle: signed volumes of the ray's line and each edge (Pluecker test; Shevtsov et al. 2007, "Ray-Triangle
+// Intersection Algorithm for Modern CPU Architectures"; the form is Embree's robust one, described by Benthin 2006).
+// The volume of a shared edge is the same number with the opposite sign in both triangles, because its two factors are
+// a difference and a sum of the same two corners: rounding cannot open a gap between neighbours (watertight), and no
+// epsilon is needed. Box: slabs with the far side widened by the rounding of three operations (Ize 2013, "Robust BVH
+// Ray Traversal").
 #ifndef Q3RT_LIB_INTERSECT_GLSL
 #define Q3RT_LIB_INTERSECT_GLSL
 

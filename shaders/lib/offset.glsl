@@ -1,7 +1,7 @@
-// Origins of rays that leave a surface: moved along its normal by a computed bound of the point's own error, so that the
-// surface is never hit again and nothing nearer than the error is skipped. (Offsets by a fixed number of ulps or a fixed
-// length are either too short far from the origin or leak light behind thin geometry.)
-// Theory: Pharr, Jakob, Humphreys 2016, "Physically Based Rendering" 3rd ed., section 3.9.5; Ize 2013 for the count.
+// Origins of rays that leave a surface: moved along its normal by a computed bound of the point's own error, so that
+// the surface is never hit again and nothing nearer than the error is skipped. (Offsets by a fixed number of ulps or a
+// fixed length are either too short far from the origin or leak light behind thin geometry.) Theory: Pharr, Jakob,
+// Humphreys 2016, "Physically Based Rendering" 3rd ed., section 3.9.5; Ize 2013 for the count.
 #ifndef Q3RT_LIB_OFFSET_GLSL
 #define Q3RT_LIB_OFFSET_GLSL
 #include "shared/constants.h"
@@ -11,7 +11,8 @@ struct HitPoint {
     vec3 error; // per component, >= 0: true point = position +- error
 };
 
-// Point of a triangle from its corners and the weights of corners 1 and 2; the count of roundings stands in constants.h.
+// Point of a triangle from its corners and the weights of corners 1 and 2; the count of roundings stands in
+// constants.h.
 HitPoint makeHitPoint(vec3 corner0, vec3 corner1, vec3 corner2, vec2 barycentric)
 {
     vec3 edge1 = corner1 - corner0;

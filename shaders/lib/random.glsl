@@ -1,7 +1,7 @@
-// Random numbers without state: a hash of (pixel, frame, dimension, seed), so that a fixed seed gives the same frame bit
-// for bit on any back end and in any order of evaluation.
-// Hash: "pcg4d" of Jarzynski and Olano 2020, "Hash Functions for GPU Rendering" (JCGT 9, 3), section 4.2: one LCG step,
-// two rounds of multiply-add across the components with a shift-xor between them.
+// Random numbers without state: a hash of (pixel, frame, dimension, seed), so that a fixed seed gives the same frame
+// bit for bit on any back end and in any order of evaluation. Hash: "pcg4d" of Jarzynski and Olano 2020, "Hash
+// Functions for GPU Rendering" (JCGT 9, 3), section 4.2: one LCG step, two rounds of multiply-add across the
+// components with a shift-xor between them.
 #ifndef Q3RT_LIB_RANDOM_GLSL
 #define Q3RT_LIB_RANDOM_GLSL
 

@@ -9,8 +9,8 @@ vec3 clampKeepingHue(vec3 color)
     return largest > 1.0f ? color / largest : color;
 }
 
-// A filmic shoulder (Reinhard et al. 2002, "Photographic Tone Reproduction", eq. 4) on the largest channel: hue is kept,
-// `white` maps to 1.
+// A filmic shoulder (Reinhard et al. 2002, "Photographic Tone Reproduction", eq. 4) on the largest channel: hue is
+// kept, `white` maps to 1.
 vec3 reinhardKeepingHue(vec3 color, float white)
 {
     float largest = max(color.x, max(color.y, color.z));

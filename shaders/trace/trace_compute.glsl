@@ -24,7 +24,9 @@ struct BvhQuery {
 };
 
 // Instances are stored in the leaf order of the scene tree.
-BvhInstance loadBvhInstance(inout BvhQuery query, uint item) { return BvhInstanceTable(rtFrame.treeInstances).at[item]; }
+BvhInstance loadBvhInstance(inout BvhQuery query, uint item) {
+    return BvhInstanceTable(rtFrame.treeInstances).at[item];
+}
 
 bool onBvhTriangle(inout BvhQuery query, BvhInstance instance, BvhTriangle triangle, TriangleHit test)
 {
