@@ -49,9 +49,11 @@ bool ProgramResult::saysInOneLine(const std::string& part) const {
 
 ProgramResult runQ3rt(const std::vector<std::string>& arguments, const std::vector<std::string>& environment) {
     const fs::path output = scratchRoot() / "stdout", errors = scratchRoot() / "stderr";
-    std::string command = "env";
+    // env takes its options before its assignments.
+    std::string unset, set;
     for (const std::string& entry : environment)
-        command += entry.ends_with('=') ? " -u " + quote(entry.substr(0, entry.size() - 1)) : " " + quote(entry);
+        entry.ends_with('=') ? unset += " -u " + quote(entry.substr(0, entry.size() - 1)) : set += " " + quote(entry);
+    std::string command = "env" + unset + set;
     command += " " + quote(std::string(Q3RT_BUILD_DIR) + "/q3rt");
     for (const std::string& argument : arguments)
         command += " " + quote(argument);
