@@ -19,7 +19,10 @@ HitPoint makeHitPoint(vec3 corner0, vec3 corner1, vec3 corner2, vec2 barycentric
     vec3 edge2 = corner2 - corner0;
     HitPoint hit;
     hit.position = corner0 + (edge1 * barycentric.x + edge2 * barycentric.y);
-    hit.error = (abs(corner0) + abs(edge1) * barycentric.x + abs(edge2) * barycentric.y) * kHitPointError;
+    vec3 extent3 = max(abs(edge1), abs(edge2));
+    float extent = max(extent3.x, max(extent3.y, extent3.z));
+    hit.error =
+        (abs(corner0) + abs(edge1) * barycentric.x + abs(edge2) * barycentric.y + vec3(extent)) * kHitPointError;
     return hit;
 }
 

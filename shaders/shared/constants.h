@@ -28,9 +28,10 @@ SHARED_FLOAT kUnitRoundoff = 5.9604644775390625e-8f;
 // Error of a hit point rebuilt as p = v0 + b1 (v1 - v0) + b2 (v2 - v0), per component, in units of
 // s = |v0| + b1 |v1 - v0| + b2 |v2 - v0|. Each edge has 1 rounding, each product 1, their sum 1, the last sum 1:
 // gamma(4) s holds for the point in the space of the triangle. Barycentrics need not be exact: any pair gives a point
-// of the plane. The intersector that tests the next ray against the same triangle subtracts the origin (1) and, in an
-// instance, first transforms the ray (3): gamma(8) s in all, gamma(n) = n u / (1 - n u) (Higham 2002, lemma 3.1;
-// Pharr, Jakob, Humphreys 2016, section 3.9).
+// of the plane. The intersector that tests the next ray against the same triangle subtracts the origin (1), in an
+// instance after transforming the ray (3): gamma(8) s. It then multiplies differences across components (shear, cross
+// products), so that an error in any component reaches all: gamma(8) times the triangle's extent is added to each.
+// gamma(n) = n u / (1 - n u) (Higham 2002, lemma 3.1; Pharr, Jakob, Humphreys 2016, section 3.9).
 SHARED_FLOAT kHitPointError = 4.7683738e-7f; // gamma(8)
 // A rigid or scaled transform of a point: 3 products and 3 sums a component, on |row| |p| + |t|.
 SHARED_FLOAT kTransformError = 1.7881397e-7f; // gamma(3)

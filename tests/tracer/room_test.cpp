@@ -130,7 +130,7 @@ TEST_F(RoomTest, ConvergesToTheClosedFormOnEveryBackEnd) {
         ASSERT_EQ(image.width, kWidth);
         const Comparison comparison = compareWithClosedForm(image);
         EXPECT_GE(comparison.tiles, 15);
-        EXPECT_LT(comparison.worstTile, 0.02) << backend << ": 13,824 samples a tile";
+        EXPECT_LT(comparison.worstTile, 0.01) << backend << ": 13,824 samples a tile";
         EXPECT_LT(std::abs(comparison.mean), 0.01) << backend;
         std::printf("%s: %d tiles, worst %.2f %%, mean %+.3f %%\n", backend, comparison.tiles,
                     100 * comparison.worstTile, 100 * comparison.mean);

@@ -8,6 +8,7 @@
 #include "shaders/shared/rt_scene.h"
 
 namespace q3rt::shader {
+namespace { // one copy a test file: the text defines functions
 
 using namespace glm;
 using glm::vec2;
@@ -21,4 +22,5 @@ using uint = uint32_t;
 #include "lib/ray.glsl"
 #include "lib/tonemap.glsl"
 
+} // namespace
 } // namespace q3rt::shader
