@@ -1,8 +1,8 @@
 #!/bin/sh
 # Runs every libFuzzer target for the given number of seconds, two at a time.
 # Usage: tests/fuzz/run_fuzzers.sh SECONDS [BUILD_FOLDER] [TARGET...]
-# The build folder (default build-fuzz) is made with clang. New inputs stay in its grown_corpus, so that long runs add up;
-# an input that crashes is left in its crashes folder.
+# The build folder (default build-fuzz) is made with clang. New inputs stay in its grown_corpus, so that long runs add
+# up; an input that crashes is left in its crashes folder.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 seconds=${1:-}
@@ -17,7 +17,8 @@ if ! command -v clang++ >/dev/null; then
 fi
 mkdir -p "$build"
 cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_COMPILER=clang \
-    -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_FLAGS=-Wno-unknown-warning-option -DQ3RT_FUZZ=ON >"$build/build.log" 2>&1 || { tail -20 "$build/build.log" >&2; exit 1; }
+    -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_FLAGS=-Wno-unknown-warning-option -DQ3RT_FUZZ=ON \
+    >"$build/build.log" 2>&1 || { tail -20 "$build/build.log" >&2; exit 1; }
 cmake --build "$build" --target q3rt_fuzzers >"$build/build.log" 2>&1 || { tail -40 "$build/build.log" >&2; exit 1; }
 build=$(cd "$build" && pwd)
 "$build/make_corpus" "$build/fuzz_seeds"
