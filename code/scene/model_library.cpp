@@ -167,10 +167,8 @@ int ModelLibrary::registerSkin(std::string_view name) {
     if (name.empty() || name.size() >= kMaxNameLength) return 0;
     const std::string key = toLower(name);
     if (const auto known = m_skinByName.find(key); known != m_skinByName.end()) return known->second;
-    const auto materialOf = [&](std::string_view shader) {
-        const MaterialId id = m_materials.find(shader, lightmapContext::kNone);
-        return m_materials.get(id).isDefault ? MaterialId{0} : id;
-    };
+    // Unlike models, skins don't look whether the material failed: what was understood of it is drawn.
+    const auto materialOf = [&](std::string_view shader) { return m_materials.find(shader, lightmapContext::kNone); };
     Skin skin;
     skin.name = std::string(name);
     const bool isFile = name.size() > 5 && name.substr(name.size() - 5) == ".skin";
