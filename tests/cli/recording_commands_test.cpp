@@ -1,0 +1,110 @@
+// play, record, replay, view, subset from outside: exit codes, one error line, files.
+
+#include <fstream>
+#include <gtest/gtest.h>
+
+#include "run_program.hpp"
+#include "support/game_data.hpp"
+
+namespace q3rt::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool canPlay() {
+    return findGameFolder() && fs::exists("/usr/lib/ioquake3/ioquake3") && fs::exists("/usr/lib/openarena");
+}
+
+TEST(RecordingCommands, BadArgumentsAreTwoAndOneLine) {
+    const std::vector<std::vector<std::string>> cases = {
+        {},
+        {"nonsense"},
+        {"replay"},
+        {"replay", "a.q3t", "--size", "640"},
+        {"replay", "a.q3t", "--size", "0x10"},
+        {"replay", "a.q3t", "--size", "640x480x"},
+        {"replay", "a.q3t", "--count", "0"},
+        {"replay", "a.q3t", "--first", "-5"},
+        {"replay", "a.q3t", "--set", "novalue"},
+        {"record", "--demo", "x"},
+        {"view", "--map", "x"},
+        {"view", "--map", "x", "--out", "x.gif"},
+        {"view", "--map", "x", "--out", "x.png", "--fov", "200"},
+        {"subset", "--out", "x.pk3"},
+        {"subset", "--map", "a", "--trace", "b", "--out", "x.pk3"},
+        {"play", "--demo", "a", "--map", "b"},
+    };
+    for (const auto& arguments : cases) {
+        const ProgramResult result = runQ3rt(arguments);
+        std::string shown;
+        for (const std::string& argument : arguments)
+            shown += argument + " ";
+        EXPECT_EQ(result.exitCode, 2) << shown;
+        EXPECT_TRUE(result.saysInOneLine("q3rt: ")) << shown << result.errors;
+    }
+    RecordProperty("cases", static_cast<int>(cases.size()));
+}
+
+TEST(RecordingCommands, HelpIsComplete) {
+    for (const char* command : {"play", "record", "replay", "view", "compare", "trade", "info", "doctor", "subset"}) {
+        const ProgramResult result = runQ3rt({command, "--help"});
+        EXPECT_EQ(result.exitCode, 0) << command;
+        EXPECT_NE(result.output.find("--help"), std::string::npos) << command;
+    }
+}
+
+TEST(RecordingCommands, MissingAndDamagedFilesFailWithTheirName) {
+    const fs::path folder = makeScratchFolder("recording_commands");
+    const fs::path damaged = folder / "damaged.q3t";
+    std::ofstream(damaged) << "not a recording at all, but long enough to hold a header";
+    EXPECT_EQ(runQ3rt({"replay", damaged.string()}).exitCode, 1);
+    EXPECT_TRUE(runQ3rt({"replay", damaged.string()}).saysInOneLine("damaged.q3t"));
+    EXPECT_TRUE(runQ3rt({"replay", (folder / "absent.q3t").string()}).saysInOneLine("absent.q3t"));
+    EXPECT_TRUE(runQ3rt({"trade", "--map", "x"}).saysInOneLine("later version"));
+}
+
+TEST(RecordingCommands, WhatIsMissingIsNamed) {
+    if (!canPlay()) GTEST_SKIP() << kNoGameData;
+    const fs::path folder = makeScratchFolder("missing_things");
+    const std::string out = (folder / "a.q3t").string();
+    EXPECT_TRUE(runQ3rt({"record", "--demo", "nosuch", "--out", out}).saysInOneLine("demo088-test1"));
+    EXPECT_TRUE(
+        runQ3rt({"record", "--demo", "demo088-test1", "--out", "/nonexistent/a.q3t"}).saysInOneLine("/nonexistent"));
+    EXPECT_TRUE(runQ3rt({"view", "--map", "nosuch", "--renderer", "null", "--out", (folder / "a.png").string()})
+                    .saysInOneLine("nosuch"));
+    EXPECT_TRUE(
+        runQ3rt({"view", "--map", "oa_dm1", "--at", "here", "--renderer", "null", "--out", (folder / "a.png").string()})
+            .saysInOneLine("--at"));
+    EXPECT_TRUE(runQ3rt({"view", "--map", "oa_dm1", "--at", "spawn:9999", "--renderer", "null", "--out",
+                         (folder / "a.png").string()})
+                    .saysInOneLine("spawn points"));
+    EXPECT_TRUE(runQ3rt({"view", "--map", "oa_dm1", "--renderer", "nosuch", "--out", (folder / "a.png").string()})
+                    .saysInOneLine("nosuch"));
+    EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST(RecordingCommands, AStretchOfTheDemoIsRecordedAndReplayed) {
+    if (!canPlay()) GTEST_SKIP() << kNoGameData;
+    const fs::path folder = makeScratchFolder("stretch");
+    const std::vector<std::string> environment = {"XDG_CACHE_HOME=" + (folder / "cache").string()};
+    const std::string recording = (folder / "a.q3t").string();
+    const ProgramResult recorded =
+        runQ3rt({"record", "--demo", "demo088-test1", "--first", "5", "--count", "10", "--out", recording, "--json"},
+                environment);
+    ASSERT_EQ(recorded.exitCode, 0) << recorded.errors;
+    EXPECT_NE(recorded.output.find("\"frames\":10,\"first\":5"), std::string::npos) << recorded.output;
+    EXPECT_TRUE(fs::is_empty(folder / "cache" / "q3rt")) << "the engine's private home was left behind";
+    const fs::path pictures = folder / "pictures";
+    const ProgramResult replayed = runQ3rt({"replay", recording, "--renderer", "null", "--size", "64x48", "--first",
+                                            "7", "--count", "2", "--out", pictures.string(), "--json"});
+    ASSERT_EQ(replayed.exitCode, 0) << replayed.errors;
+    EXPECT_TRUE(fs::exists(pictures / "00000007.png") && fs::exists(pictures / "00000008.png"));
+    EXPECT_NE(replayed.output.find("\"width\":64,\"height\":48"), std::string::npos);
+    EXPECT_TRUE(runQ3rt({"replay", recording, "--renderer", "null", "--first", "0"}).saysInOneLine("5 to 14"));
+    const ProgramResult subset = runQ3rt({"subset", "--trace", recording, "--out", (folder / "s.pk3").string()});
+    EXPECT_EQ(subset.exitCode, 0) << subset.errors;
+    EXPECT_GT(fs::file_size(folder / "s.pk3"), 1000000u);
+}
+
+} // namespace
+} // namespace q3rt::test
