@@ -11,7 +11,7 @@
 namespace q3rt {
 
 /// Three positions a triangle. Returns the permutation: entry i is the triangle that comes i-th, the leaf order of a
-/// binned surface-area-heuristic tree. Zero-area and huge triangles are fine; non-finite corners count as the origin.
+/// binned surface-area-heuristic tree. Zero-area and huge triangles are fine; those with non-finite corners come last.
 std::vector<uint32_t> sahLeafOrder(std::span<const vec3> trianglePositions);
 
 } // namespace q3rt
