@@ -40,10 +40,14 @@ size_t indexOf(TraceStage stage) { return static_cast<size_t>(stage); }
 
 StagePipelines::StagePipelines(Device& device, Backend backend, VkDescriptorSetLayout textures)
     : m_backend(backend) {
-    if (usesStructures(backend))
+    PipelineInterface interface;
+    interface.sets = {textures};
+    interface.pushConstantBytes = sizeof(RtPush);
+    if (usesStructures(backend)) {
         m_structureLayout =
             DescriptorLayout(device, {{0, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR}}, "traced scene");
-    const PipelineInterface interface { {textures, m_structureLayout.handle()}, sizeof(RtPush) };
+        interface.sets.push_back(m_structureLayout.handle());
+    }
     createTraceStage(device, TraceStage::Primary, interface);
     createTraceStage(device, TraceStage::Direct, interface);
     m_composite = ComputePipeline(device, {"composite", {shaders::rt_composite_comp, {}}, interface});

@@ -164,6 +164,7 @@ const TracedView& TraceRenderer::prepareView(const FrameCommands& frame, const S
     ViewBuffers& buffers = buffersOf(extent);
     view.frame.pixels = buffers.pixels.address();
     view.frame.irradiance = buffers.irradiance.address();
+    view.frame.lighting = view.frame.irradiance;
     view.frame.radiance = buffers.radiance.address();
     m_scene->finish(view);
     m_movingTriangleCount = view.movingTriangleCount;

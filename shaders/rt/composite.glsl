@@ -7,7 +7,7 @@ void compositePixel(uvec2 pixelPosition)
 {
     uint index = pixelIndex(pixelPosition);
     RtPixel pixel = PixelTable(rtFrame.pixels).at[index];
-    vec3 radiance = pixel.albedo * ColorTable(rtFrame.irradiance).at[index].rgb + pixel.emission;
+    vec3 radiance = pixel.albedo * ColorTable(rtFrame.lighting).at[index].rgb + pixel.emission;
     if (rtFrame.sampleNumber > 0u) {
         // Running mean: m += (x - m) / n keeps its relative error below n u.
         vec3 mean = ColorTable(rtFrame.radiance).at[index].rgb;

@@ -69,7 +69,7 @@ void directPixel(uvec2 pixelPosition)
         point.origin = offsetOrigin(pixel.position, pixel.error, pixel.geometricNormal);
         point.normal = pixel.normal;
         RtLightRow row = LightRowTable(rtFrame.lightRows).at[lightRowOf(point.origin)];
-        uvec4 key = randomKey(pixelPosition);
+        uvec4 key = ownRandomKey(pixel);
         GridSample grid = sampleGrid(point.origin, point.normal);
         // Where the grid saw no sky a thin chance stays: its cells are coarse.
         float skySeen = max(grid.skySeen, kLeastSkyChance);

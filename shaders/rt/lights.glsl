@@ -21,6 +21,13 @@ const uint kDimensionLight = 16u;
 
 uvec4 randomKey(uvec2 pixel) { return uvec4(pixel, rtFrame.frame, rtFrame.seed); }
 
+// A pixel's own numbers may come from an earlier frame: see rt/denoise_project.glsl.
+uint packKeyPixel(uvec2 pixel) { return pixel.x | pixel.y << 16u; }
+uvec4 ownRandomKey(RtPixel pixel)
+{
+    return uvec4(pixel.keyPixel & 0xffffu, pixel.keyPixel >> 16u, pixel.keyFrame, rtFrame.seed);
+}
+
 // Row of the light table for a point off every surface. A point on a plane belongs to its back, as in the map; a point
 // outside all clusters has the last row: all lights.
 uint lightRowOf(vec3 point)

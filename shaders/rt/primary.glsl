@@ -49,6 +49,7 @@ void addLayer(inout Picture picture, SurfacePoint point, MaterialColor color, fl
             // A surface seen from behind is lit on the side that is seen.
             picture.pixel.normal = point.frontFace ? point.normal : -point.normal;
             picture.pixel.albedo = albedo / weight;
+            picture.pixel.entity = point.entity;
         }
     }
     picture.passed *= color.through;
@@ -133,7 +134,7 @@ void primaryPixel(uvec2 pixelPosition)
     picture.passed = vec3(1.0);
     picture.weightSum = 0.0;
     picture.pixel = RtPixel(vec3(0.0), 0u, vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0), vec3(0.0),
-                            vec3(0.0));
+                            vec3(0.0), packKeyPixel(pixelPosition), rtFrame.frame, 0u);
     float distance = 0.0;
     if ((rtFrame.flags & kFrameNearEntities) != 0u)
         distance = addRange(picture, ray, kMaskNearSolid, kMaskNearLayer, key);

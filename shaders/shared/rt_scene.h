@@ -142,6 +142,9 @@ struct RtPixel {
     vec3 geometricNormal; // unit, on the eye's side
     vec3 albedo;   // A, times what the layers in front let through
     vec3 emission; // B of all layers
+    uint keyPixel; // of the direct stage's random numbers: x | y << 16
+    uint keyFrame;
+    uint entity; // of the lit layer, in the entity table
 };
 
 SHARED_CONST kFrameNearEntities = 0x1u;
@@ -169,6 +172,7 @@ struct RtFrame {
     SHARED_ADDRESS treeInstances; // in its leaf order
     SHARED_ADDRESS pixels;
     SHARED_ADDRESS irradiance; // vec4[]: traced L (1.0 = irradiance 63.75), one a pixel
+    SHARED_ADDRESS lighting;   // vec4[]: L that the picture shows: `irradiance`, or what a denoiser made of it
     SHARED_ADDRESS radiance;   // vec4[]: mean radiance of all samples so far, one a pixel
     vec3 eye;
     uint flags; // kFrame*
