@@ -203,7 +203,11 @@ bool DrawListBuilder::addPortalView(ViewWork& work) {
     std::vector<uint32_t> indices;
     for (const Item& item : work.items) {
         if (m_materials.get(item.material).sort > kPortalSort) break;
-        const bool planar = item.fromWorld && m_world->surfaces[item.surface].type == BspSurfaceType::Planar;
+        // A deformed face keeps the plane that it has in the map.
+        const int worldSurface =
+            item.fromWorld ? static_cast<int>(item.surface) : work.geometry.surfaces[item.surface].worldSurface;
+        const WorldSurface* face = worldSurface >= 0 ? &m_world->surfaces[static_cast<size_t>(worldSurface)] : nullptr;
+        const bool planar = face && face->type == BspSurfaceType::Planar;
         const std::vector<Vertex>& vertices = item.fromWorld ? m_world->vertices : work.geometry.vertices;
         const std::vector<uint32_t>& all = item.fromWorld ? m_world->indices : work.geometry.indices;
         const uint32_t first = item.fromWorld ? m_world->surfaces[item.surface].firstIndex
@@ -214,7 +218,7 @@ bool DrawListBuilder::addPortalView(ViewWork& work) {
         positions.clear();
         normals.clear();
         indices.clear();
-        Plane plane = planar ? m_world->surfaces[item.surface].plane
+        Plane plane = planar ? face->plane
                              : planeOfTriangle(vertices[all[first]].position, vertices[all[first + 1]].position,
                                                vertices[all[first + 2]].position);
         for (uint32_t i = 0; i < count; ++i) {
