@@ -27,7 +27,8 @@
 //   refused. The program is about to end, and taking a device apart under a driver call that is in progress would
 //   crash or hang it; the module pins itself in memory instead (export_table.cpp).
 //
-// Rules for bodies: catch (...) must rethrow; code that calls imports is not noexcept, except for those that
+// Rules for bodies: what they capture lies on the engine's stack and may be gone while they unwind, so no destructor
+// uses it; catch (...) must rethrow; code that calls imports is not noexcept, except for those that
 // destructors need (print, remove a command, shut input down): these are ImportKind::NeverThrows and return even when
 // abandoned. Any import called while an abandoned fiber unwinds is skipped and yields a zero. Only the engine's thread
 // may call.

