@@ -14,6 +14,7 @@
 // t is in units of |direction|.
 #ifndef Q3RT_TRACE_GLSL
 #define Q3RT_TRACE_GLSL
+#include "shared/types.h"
 
 struct Hit {
     float t; // 0: nothing was hit
@@ -58,12 +59,12 @@ LayerBatch emptyBatch(LayerKey after)
     batch.after = after;
     batch.count = 0u;
     for (uint i = 0u; i < kLayersPerBatch; ++i)
-        batch.layers[i] = Layer(LayerKey(0.0, 0u, 0u), 0.0, vec2(0.0));
+        batch.layers[i] = Layer(LayerKey(0.0f, 0u, 0u), 0.0f, vec2(0.0f));
     return batch;
 }
 
 // Insertion that keeps the nearest kLayersPerBatch after `after`; offered twice, a layer is kept once.
-void insertLayer(inout LayerBatch batch, Layer layer)
+void insertLayer(INOUT(LayerBatch) batch, Layer layer)
 {
     if (!isBefore(batch.after, layer.key))
         return;
