@@ -8,16 +8,22 @@ void TraceRenderer::drawWorldView(FrameGraph& graph, FrameTargets& targets, cons
                                   const SceneView& scene) {
     const std::optional<VkRect2D> area = visibleArea(scene);
     if (!area || !m_scene->hasWorld()) return;
-    const TracedView& view = prepareView(frame, scene, area->extent);
-    ViewBuffers& buffers = buffersOf(area->extent);
+    ViewBuffers& buffers = buffersOf(*area);
+    const TracedView& view = prepareView(frame, scene, buffers);
     const ViewWork work{*m_scene, *m_pipelines, context(), view, area->extent};
-    ViewResources resources{
-        graph.importBuffer("structures", ResourceState{}), graph.importBuffer("pixels", buffers.pixels),
-        graph.importBuffer("irradiance", buffers.irradiance), graph.importBuffer("radiance", buffers.radiance)};
+    ViewResources resources;
+    resources.structures = graph.importBuffer("structures", ResourceState{});
+    resources.pixels = graph.importBuffer("pixels", buffers.pixels);
+    resources.irradiance = graph.importBuffer("irradiance", buffers.irradiance);
+    resources.radiance = graph.importBuffer("radiance", buffers.radiance);
+    DenoiseResources denoise;
+    if (buffers.denoise) denoise = importDenoise(graph, *buffers.denoise);
 
     if (view.top) addAcceleration(graph, resources, work);
     addPrimary(graph, resources, work);
+    if (buffers.denoise) addDenoiseProjection(graph, resources, denoise, describeDenoiseWork(buffers));
     addDirect(graph, resources, work);
+    if (buffers.denoise) addDenoise(graph, resources, denoise, describeDenoiseWork(buffers));
     addComposite(graph, resources, work);
     addOutput(graph, resources, targets, work, describeOutput(buffers, *area));
 }

@@ -8,6 +8,7 @@ SETTING(rt_softshadows, Int, 1, 0, 1, A, "", "suns and dynamic lights have a siz
 SETTING(rt_ambient, Float, 1.0f, 0, 4, A, "factor", "of the light grid, for light that no extracted light explains")
 SETTING(rt_antialiasing, Int, 0, 0, 1, A, "", "rays at random places of a pixel; needs rt_accumulate to look smooth")
 SETTING(rt_accumulate, Int, 0, 0, 1, A, "", "mean of all frames while the view stays the same")
+SETTING(rt_denoiser, Int, 1, 0, 1, A, "", "filters light over frames and neighbours; never with rt_accumulate")
 SETTING(rt_exposure, Float, 1.0f, 0.01f, 100, A, "factor", "of radiance before the output curve")
 SETTING(rt_tonemap, Int, 0, 0, 1, A, "", "0 the engine's clamp (hue kept), 1 a filmic shoulder")
 SETTING(rt_seed, Int, 0, 0, 16777215, A, "", "of all random numbers: the same seed gives the same frames")

@@ -56,7 +56,7 @@ void TraceRenderer::onGpuFrameEnd() {
 }
 
 void TraceRenderer::writeRadiance(const std::string& file) {
-    const VkExtent2D extent = m_lastBuffers->extent;
+    const VkExtent2D extent = m_lastBuffers->area.extent;
     const std::vector<std::byte> bytes = readBuffer(context().device(), m_lastBuffers->radiance);
     std::vector<float> rgb;
     rgb.reserve(size_t{3} * extent.width * extent.height);
@@ -89,7 +89,8 @@ void TraceRenderer::warmPipelines() {
     scene.height = static_cast<int>(kWarmExtent.height);
     scene.view.origin = world()->bounds.empty() ? vec3(0.0f) : (world()->bounds.mins + world()->bounds.maxs) * 0.5f;
     m_views.clear();
-    const TracedView& view = prepareView(frame, scene, kWarmExtent);
+    ViewBuffers buffers(context().device(), {{0, 0}, kWarmExtent});
+    const TracedView& view = prepareView(frame, scene, buffers);
     DescriptorArena arena(context().device());
     context().device().submitAndWait([&](VkCommandBuffer commands) {
         if (view.top) m_scene->recordBuilds(commands, view);
@@ -101,10 +102,9 @@ void TraceRenderer::warmPipelines() {
         input.push = {view.frameSlice.address};
         input.extent = kWarmExtent;
         m_pipelines->warm(commands, input);
+        if (buffers.denoise) m_denoisePipelines->warm(commands);
     });
     m_views.clear();
-    m_buffers.clear();
-    m_lastBuffers = nullptr;
     m_lastViewKey.clear();
     m_frameNumber = 0;
 }

@@ -12,13 +12,8 @@ namespace q3rt {
 
 namespace {
 
-constexpr VkBufferUsageFlags kViewUsage =
-    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-
-Buffer makeViewBuffer(Device& device, VkExtent2D extent, size_t pixelBytes, const char* name) {
-    return Buffer(device,
-                  {.size = VkDeviceSize{extent.width} * extent.height * pixelBytes, .usage = kViewUsage, .name = name});
-}
+/// Buffers of a view that has not been drawn for so many pictures are let go.
+constexpr uint32_t kKeptPictures = 8;
 
 /// Radiance that the filmic curve shows as full white.
 constexpr float kFilmicWhite = 4.0f;
@@ -36,12 +31,6 @@ void appendBits(std::vector<uint32_t>& key, const T& value) {
 }
 
 } // namespace
-
-ViewBuffers::ViewBuffers(Device& device, VkExtent2D viewExtent)
-    : extent(viewExtent)
-    , pixels(makeViewBuffer(device, viewExtent, sizeof(RtPixel), "pixels"))
-    , irradiance(makeViewBuffer(device, viewExtent, sizeof(vec4), "irradiance"))
-    , radiance(makeViewBuffer(device, viewExtent, sizeof(vec4), "radiance")) {}
 
 TraceRenderer::TraceRenderer(EngineServices& engine)
     : GpuRenderer(engine) {
@@ -91,6 +80,8 @@ void TraceRenderer::onGpuContentDropped() {
 void TraceRenderer::onGpuFrameBegin(const FrameCommands&) {
     m_views.clear();
     m_scene->beginFrame();
+    ++m_pictureNumber;
+    dropUnusedBuffers();
 }
 
 std::optional<VkRect2D> TraceRenderer::visibleArea(const SceneView& scene) {
@@ -134,6 +125,14 @@ void TraceRenderer::describeSettings(RtFrame& out) const {
     if (m_settings.rt_antialiasing) out.flags |= kFrameAntialiasing;
 }
 
+std::vector<uint32_t> TraceRenderer::settingsKey() const {
+    std::vector<uint32_t> key;
+    appendBits(key, std::array{m_settings.rt_illumination, m_settings.rt_cullLights, m_settings.rt_numRandomDL,
+                               m_settings.rt_softshadows, m_settings.rt_antialiasing, m_settings.rt_seed});
+    appendBits(key, m_settings.rt_ambient);
+    return key;
+}
+
 uint32_t TraceRenderer::countSample(const FrameCommands& frame, const SceneView& scene) {
     std::vector<uint32_t> key;
     for (const vec3& v : {scene.view.origin, scene.view.axis[0], scene.view.axis[1], scene.view.axis[2]})
@@ -143,28 +142,27 @@ uint32_t TraceRenderer::countSample(const FrameCommands& frame, const SceneView&
     appendBits(key, std::array{scene.entityCount, scene.polyCount, scene.lightCount});
     for (uint32_t i = 0; i < scene.entityCount; ++i)
         appendBits(key, frame.entities[scene.firstEntity + i].orientation.origin);
-    appendBits(key, std::array{m_settings.rt_illumination, m_settings.rt_cullLights, m_settings.rt_numRandomDL,
-                               m_settings.rt_softshadows, m_settings.rt_antialiasing, m_settings.rt_seed});
-    appendBits(key, m_settings.rt_ambient);
+    const std::vector<uint32_t> settings = settingsKey();
+    key.insert(key.end(), settings.begin(), settings.end());
     const bool same = m_settings.rt_accumulate != 0 && key == m_lastViewKey;
     m_lastViewKey = std::move(key);
     m_sampleNumber = same ? m_sampleNumber + 1 : 0;
     return m_sampleNumber;
 }
 
-const TracedView& TraceRenderer::prepareView(const FrameCommands& frame, const SceneView& scene, VkExtent2D extent) {
+const TracedView& TraceRenderer::prepareView(const FrameCommands& frame, const SceneView& scene, ViewBuffers& buffers) {
     buildViewGeometry(frame, scene, scene.view, world(), models(), materials(), viewGeometrySettings(), m_geometry);
     const std::span<const SceneLight> lights(frame.lights.data() + scene.firstLight, scene.lightCount);
     m_views.push_back(m_scene->prepare(m_geometry, lights));
     TracedView& view = m_views.back();
-    describeView(scene, extent, view.frame);
+    describeView(scene, buffers.area.extent, view.frame);
     describeSettings(view.frame);
     view.frame.sampleNumber = countSample(frame, scene);
     view.frame.frame = m_frameNumber++;
-    ViewBuffers& buffers = buffersOf(extent);
+    prepareDenoise(frame, scene, buffers, view.frame);
     view.frame.pixels = buffers.pixels.address();
     view.frame.irradiance = buffers.irradiance.address();
-    view.frame.lighting = view.frame.irradiance;
+    view.frame.lighting = buffers.denoise ? buffers.denoise->result().address() : view.frame.irradiance;
     view.frame.radiance = buffers.radiance.address();
     m_scene->finish(view);
     m_movingTriangleCount = view.movingTriangleCount;
@@ -172,15 +170,46 @@ const TracedView& TraceRenderer::prepareView(const FrameCommands& frame, const S
     return view;
 }
 
-ViewBuffers& TraceRenderer::buffersOf(VkExtent2D extent) {
-    for (ViewBuffers& buffers : m_buffers)
-        if (buffers.extent.width == extent.width && buffers.extent.height == extent.height) {
-            m_lastBuffers = &buffers;
-            return buffers;
-        }
-    m_lastBuffers = &m_buffers.emplace_back(context().device(), extent);
-    m_lastViewKey.clear();
+void TraceRenderer::prepareDenoise(const FrameCommands& frame, const SceneView& scene, ViewBuffers& buffers,
+                                   RtFrame& out) {
+    const bool wanted = m_settings.rt_denoiser && m_settings.rt_illumination && !m_settings.rt_accumulate;
+    buffers.turnHistory(context().device(), wanted);
+    if (!wanted) return;
+    if (!m_denoisePipelines) m_denoisePipelines = std::make_unique<DenoisePipelines>(context().device());
+    buffers.motion.advance({.camera = cameraOf(out),
+                            .timeMs = scene.timeMs,
+                            .sampleFrame = out.frame,
+                            .pictureNumber = m_pictureNumber,
+                            .settingsKey = settingsKey(),
+                            .entities = findPlaces(frame, scene, m_geometry)});
+    const VkDeviceAddress toCurrent = m_scene->keepForFrame(std::span(buffers.motion.toCurrent()));
+    const VkDeviceAddress toPrevious = m_scene->keepForFrame(std::span(buffers.motion.toPrevious()));
+    const RtDenoise table = describeDenoise(buffers, toCurrent, toPrevious);
+    buffers.denoise->table = m_scene->keepForFrame(std::span<const RtDenoise>(&table, 1));
+}
+
+DenoiseWork TraceRenderer::describeDenoiseWork(const ViewBuffers& buffers) const {
+    return {*m_denoisePipelines, buffers.denoise->table, buffers.area.extent, buffers.motion.isContinuous()};
+}
+
+ViewBuffers& TraceRenderer::buffersOf(const VkRect2D& area) {
+    const auto found = std::find_if(m_buffers.begin(), m_buffers.end(), [&](const ViewBuffers& buffers) {
+        return buffers.area.offset.x == area.offset.x && buffers.area.offset.y == area.offset.y &&
+               buffers.area.extent.width == area.extent.width && buffers.area.extent.height == area.extent.height &&
+               buffers.lastPicture != m_pictureNumber;
+    });
+    if (found == m_buffers.end()) m_lastViewKey.clear();
+    m_lastBuffers = found != m_buffers.end() ? &*found : &m_buffers.emplace_back(context().device(), area);
+    m_lastBuffers->lastPicture = m_pictureNumber;
     return *m_lastBuffers;
+}
+
+void TraceRenderer::dropUnusedBuffers() {
+    m_buffers.remove_if([&](const ViewBuffers& buffers) {
+        const bool unused = buffers.lastPicture + kKeptPictures < m_pictureNumber;
+        if (unused && m_lastBuffers == &buffers) m_lastBuffers = nullptr;
+        return unused;
+    });
 }
 
 RtOutput TraceRenderer::describeOutput(const ViewBuffers& buffers, const VkRect2D& area) const {

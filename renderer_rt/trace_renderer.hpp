@@ -3,18 +3,11 @@
 
 #include <list>
 
-#include "renderer_rt/passes/passes.hpp"
+#include "renderer_rt/passes/denoise.hpp"
 #include "renderer_rt/trace_settings.hpp"
 #include "renderer_vk/gpu_renderer.hpp"
 
 namespace q3rt {
-
-/// Buffers of one size of view: what the stages hand on, and the running mean.
-struct ViewBuffers {
-    VkExtent2D extent{};
-    Buffer pixels, irradiance, radiance;
-    ViewBuffers(Device& device, VkExtent2D viewExtent);
-};
 
 class TraceRenderer final : public GpuRenderer {
   public:
@@ -34,12 +27,19 @@ class TraceRenderer final : public GpuRenderer {
     void onGpuFrameEnd() override;
     std::string extraStats() const override;
 
-    const TracedView& prepareView(const FrameCommands& frame, const SceneView& scene, VkExtent2D extent);
+    const TracedView& prepareView(const FrameCommands& frame, const SceneView& scene, ViewBuffers& buffers);
+    /// Turns the view's history and makes the denoiser's table of the frame; nothing if there is no denoiser.
+    void prepareDenoise(const FrameCommands& frame, const SceneView& scene, ViewBuffers& buffers, RtFrame& out);
+    DenoiseWork describeDenoiseWork(const ViewBuffers& buffers) const;
     void describeView(const SceneView& scene, VkExtent2D extent, RtFrame& out) const;
     void describeSettings(RtFrame& out) const;
     /// Number of this sample in the mean of an unchanged view; 0 starts a new mean.
     uint32_t countSample(const FrameCommands& frame, const SceneView& scene);
-    ViewBuffers& buffersOf(VkExtent2D extent);
+    /// What changes the light of a view that stays the same.
+    std::vector<uint32_t> settingsKey() const;
+    /// Buffers of a view there that this picture doesn't use yet.
+    ViewBuffers& buffersOf(const VkRect2D& area);
+    void dropUnusedBuffers();
     /// The part of the view's rectangle that lies on the target.
     std::optional<VkRect2D> visibleArea(const SceneView& scene);
     RtOutput describeOutput(const ViewBuffers& buffers, const VkRect2D& area) const;
@@ -52,12 +52,14 @@ class TraceRenderer final : public GpuRenderer {
 
     TraceSettings m_settings;
     std::unique_ptr<StagePipelines> m_pipelines;
+    std::unique_ptr<DenoisePipelines> m_denoisePipelines; ///< made when the denoiser is first wanted
     std::unique_ptr<TracedScene> m_scene;
     std::list<ViewBuffers> m_buffers; ///< addresses stay
     std::list<TracedView> m_views;    ///< of this frame; passes refer to them
     ViewGeometry m_geometry;
     ViewBuffers* m_lastBuffers = nullptr;
     bool m_commandAdded = false;
+    uint32_t m_pictureNumber = 0; ///< of drawn frames
     uint32_t m_frameNumber = 0; ///< of traced views since the map was loaded
     uint32_t m_sampleNumber = 0;
     std::vector<uint32_t> m_lastViewKey; ///< of the view that the mean belongs to

@@ -39,6 +39,11 @@ class TracedScene {
     TracedView prepare(const ViewGeometry& geometry, std::span<const SceneLight> lights);
     /// Writes `view.frame` where the shaders find it.
     void finish(const TracedView& view);
+    /// Keeps a table where shaders find it, for this frame.
+    template <typename T>
+    VkDeviceAddress keepForFrame(std::span<const T> items) {
+        return m_stream.append(items).address;
+    }
     /// Bottom levels, then the top level, with the barriers between and after them.
     void recordBuilds(VkCommandBuffer commands, const TracedView& view);
 

@@ -7,7 +7,7 @@ void addComposite(FrameGraph& graph, ViewResources& resources, const ViewWork& w
         "composite",
         [&](PassBuilder& pass) {
             pass.read(resources.pixels, access::kComputeRead);
-            pass.read(resources.irradiance, access::kComputeRead);
+            pass.read(resources.lighting, access::kComputeRead);
             resources.radiance = pass.write(resources.radiance, access::kComputeWrite);
         },
         [work](PassContext& pass) { work.pipelines.dispatchComposite(pass.commands(), makeStageInput(pass, work)); });

@@ -13,6 +13,7 @@ struct ViewResources {
     BufferId structures; ///< a token: orders builds and traces
     BufferId pixels;     ///< RtPixel[]
     BufferId irradiance; ///< vec4[]
+    BufferId lighting;   ///< vec4[]: irradiance, or what the denoiser made of it
     BufferId radiance;   ///< vec4[]: running mean, kept between frames
 };
 

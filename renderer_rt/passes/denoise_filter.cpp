@@ -1,0 +1,43 @@
+#include "renderer_rt/passes/denoise.hpp"
+
+namespace q3rt {
+
+void addDenoiseVariance(FrameGraph& graph, DenoiseResources& denoise, const DenoiseWork& work) {
+    graph.addPass(
+        "denoise variance",
+        [&](PassBuilder& pass) {
+            pass.read(denoise.guides, access::kComputeRead);
+            pass.read(denoise.light, access::kComputeRead);
+            pass.read(denoise.moments, access::kComputeRead);
+            denoise.filtered[0] = pass.write(denoise.filtered[0], access::kComputeWrite);
+        },
+        [work](PassContext& pass) {
+            work.pipelines.dispatch(pass.commands(), DenoiseStage::Variance, {.denoise = work.table}, work.extent);
+        });
+}
+
+void addDenoiseFilter(FrameGraph& graph, DenoiseResources& denoise, const DenoiseWork& work) {
+    for (uint32_t level = 0; level < kFilterLevels; ++level)
+        graph.addPass(
+            "denoise filter",
+            [&](PassBuilder& pass) {
+                pass.read(denoise.guides, access::kComputeRead);
+                pass.read(denoise.filtered[level & 1], access::kComputeRead);
+                BufferId& to = denoise.filtered[(level + 1) & 1];
+                to = pass.write(to, access::kComputeWrite);
+            },
+            [work, level](PassContext& pass) {
+                work.pipelines.dispatch(pass.commands(), DenoiseStage::Filter, {.denoise = work.table, .level = level},
+                                        work.extent);
+            });
+}
+
+void addDenoise(FrameGraph& graph, ViewResources& resources, DenoiseResources& denoise, const DenoiseWork& work) {
+    if (work.hasHistory) addDenoiseGradient(graph, resources, denoise, work);
+    addDenoiseTemporal(graph, resources, denoise, work);
+    addDenoiseVariance(graph, denoise, work);
+    addDenoiseFilter(graph, denoise, work);
+    resources.lighting = denoise.filtered[kFilterLevels & 1];
+}
+
+} // namespace q3rt

@@ -1,0 +1,27 @@
+#include "renderer_rt/passes/denoise.hpp"
+
+namespace q3rt {
+
+void addDenoiseTemporal(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
+                        const DenoiseWork& work) {
+    graph.addPass(
+        "denoise temporal",
+        [&](PassBuilder& pass) {
+            pass.read(resources.pixels, access::kComputeRead);
+            pass.read(resources.irradiance, access::kComputeRead);
+            pass.read(denoise.guides, access::kComputeRead);
+            if (work.hasHistory) {
+                pass.read(denoise.previousGuides, access::kComputeRead);
+                pass.read(denoise.previousLight, access::kComputeRead);
+                pass.read(denoise.previousMoments, access::kComputeRead);
+                pass.read(denoise.gradients[kGradientLevels & 1], access::kComputeRead);
+            }
+            denoise.light = pass.write(denoise.light, access::kComputeWrite);
+            denoise.moments = pass.write(denoise.moments, access::kComputeWrite);
+        },
+        [work](PassContext& pass) {
+            work.pipelines.dispatch(pass.commands(), DenoiseStage::Temporal, {.denoise = work.table}, work.extent);
+        });
+}
+
+} // namespace q3rt

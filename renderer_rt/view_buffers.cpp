@@ -1,0 +1,91 @@
+#include "renderer_rt/view_buffers.hpp"
+
+#include <algorithm>
+
+#include "gpu/device.hpp"
+
+namespace q3rt {
+
+Buffer makeViewBuffer(Device& device, VkExtent2D extent, size_t bytes, const char* name) {
+    return Buffer(device, {.size = VkDeviceSize{extent.width} * extent.height * bytes,
+                           .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                           .name = name});
+}
+
+VkExtent2D strataOf(VkExtent2D extent) {
+    return {(extent.width + kStratumPixels - 1) / kStratumPixels,
+            (extent.height + kStratumPixels - 1) / kStratumPixels};
+}
+
+DenoiseBuffers::DenoiseBuffers(Device& device, VkExtent2D extent)
+    : previousPixels(makeViewBuffer(device, extent, sizeof(RtPixel), "previous pixels"))
+    , previousIrradiance(makeViewBuffer(device, extent, sizeof(vec4), "previous irradiance"))
+    , guides(makeViewBuffer(device, extent, sizeof(RtGuide), "guides"))
+    , previousGuides(makeViewBuffer(device, extent, sizeof(RtGuide), "previous guides"))
+    , light(makeViewBuffer(device, extent, sizeof(vec4), "light"))
+    , previousLight(makeViewBuffer(device, extent, sizeof(vec4), "previous light"))
+    , moments(makeViewBuffer(device, extent, sizeof(vec2), "moments"))
+    , previousMoments(makeViewBuffer(device, extent, sizeof(vec2), "previous moments"))
+    , winners(makeViewBuffer(device, strataOf(extent), sizeof(uint32_t), "winners"))
+    , gradients{makeViewBuffer(device, strataOf(extent), sizeof(vec2), "gradients 0"),
+                makeViewBuffer(device, strataOf(extent), sizeof(vec2), "gradients 1")}
+    , filtered{makeViewBuffer(device, extent, sizeof(vec4), "filtered 0"),
+               makeViewBuffer(device, extent, sizeof(vec4), "filtered 1")} {}
+
+ViewBuffers::ViewBuffers(Device& device, const VkRect2D& viewArea)
+    : area(viewArea)
+    , pixels(makeViewBuffer(device, viewArea.extent, sizeof(RtPixel), "pixels"))
+    , irradiance(makeViewBuffer(device, viewArea.extent, sizeof(vec4), "irradiance"))
+    , radiance(makeViewBuffer(device, viewArea.extent, sizeof(vec4), "radiance")) {}
+
+void ViewBuffers::turnHistory(Device& device, bool denoised) {
+    if (!denoised) {
+        denoise.reset();
+        return;
+    }
+    if (!denoise) {
+        denoise = std::make_unique<DenoiseBuffers>(device, area.extent);
+        motion = ViewMotion();
+    }
+    std::swap(pixels, denoise->previousPixels);
+    std::swap(irradiance, denoise->previousIrradiance);
+    std::swap(denoise->guides, denoise->previousGuides);
+    std::swap(denoise->light, denoise->previousLight);
+    std::swap(denoise->moments, denoise->previousMoments);
+}
+
+RtDenoise describeDenoise(const ViewBuffers& buffers, VkDeviceAddress toCurrent, VkDeviceAddress toPrevious) {
+    const DenoiseBuffers& denoise = *buffers.denoise;
+    const ViewMotion& motion = buffers.motion;
+    RtDenoise table{};
+    table.pixels = buffers.pixels.address();
+    table.previousPixels = denoise.previousPixels.address();
+    table.irradiance = buffers.irradiance.address();
+    table.previousIrradiance = denoise.previousIrradiance.address();
+    table.guides = denoise.guides.address();
+    table.previousGuides = denoise.previousGuides.address();
+    table.light = denoise.light.address();
+    table.previousLight = denoise.previousLight.address();
+    table.moments = denoise.moments.address();
+    table.previousMoments = denoise.previousMoments.address();
+    table.winners = denoise.winners.address();
+    for (size_t i = 0; i < 2; ++i) {
+        table.gradients[i] = denoise.gradients[i].address();
+        table.filtered[i] = denoise.filtered[i].address();
+    }
+    table.motionToCurrent = toCurrent;
+    table.motionToPrevious = toPrevious;
+    table.camera = motion.current().camera;
+    table.previousCamera = motion.previous().camera;
+    const VkExtent2D size = buffers.area.extent, strata = strataOf(size);
+    table.size = {size.width, size.height};
+    table.strata = {strata.width, strata.height};
+    table.frame = motion.current().sampleFrame;
+    table.previousFrame = motion.previous().sampleFrame;
+    table.pixelTangent = std::max(2.0f * glm::length(table.camera.left) / static_cast<float>(size.width),
+                                  2.0f * glm::length(table.camera.up) / static_cast<float>(size.height));
+    table.flags = motion.isContinuous() ? kDenoiseHistory : 0;
+    return table;
+}
+
+} // namespace q3rt

@@ -1,0 +1,112 @@
+// Arithmetic of the denoiser: projection, packing, edge-stopping weights, blending. Pure functions.
+// Schied et al. 2017, "Spatiotemporal Variance-Guided Filtering" (SVGF), sections 4.2 to 4.4; Schied, Peters,
+// Dachsbacher 2018, "Gradient Estimation for Real-Time Adaptive Temporal Filtering" (A-SVGF), section 4.
+#ifndef Q3RT_LIB_DENOISE_GLSL
+#define Q3RT_LIB_DENOISE_GLSL
+#include "shared/constants.h"
+
+// The inverse of cameraDirection(): place in the picture, (0, 0) top left to (1, 1) bottom right, and depth along the
+// view's axis. The place means nothing where depth <= 0.
+vec3 projectPoint(vec3 eye, vec3 forward, vec3 left, vec3 up, vec3 forwardUnit, vec3 point)
+{
+    vec3 v = point - eye;
+    float depth = dot(v, forwardUnit) / dot(forward, forwardUnit);
+    vec3 aside = v / depth - forward;
+    return vec3(0.5f - 0.5f * dot(aside, left) / dot(left, left), 0.5f - 0.5f * dot(aside, up) / dot(up, up), depth);
+}
+
+// Unit normals in 32 bits (octahedral map: Cigolle et al. 2014, "A Survey of Efficient Representations for Independent
+// Unit Vectors"). packSnorm2x16 never gives -32768, which marks pixels without a surface.
+const uint kNoNormal = 0x80008000u;
+
+uint packNormal(vec3 n)
+{
+    vec3 p = n / (abs(n.x) + abs(n.y) + abs(n.z));
+    vec2 folded = vec2((1.0f - abs(p.y)) * (p.x >= 0.0f ? 1.0f : -1.0f), (1.0f - abs(p.x)) * (p.y >= 0.0f ? 1.0f : -1.0f));
+    return packSnorm2x16(p.z >= 0.0f ? vec2(p.x, p.y) : folded);
+}
+
+vec3 unpackNormal(uint bits)
+{
+    vec2 e = unpackSnorm2x16(bits);
+    float z = 1.0f - abs(e.x) - abs(e.y);
+    float fold = max(-z, 0.0f);
+    return normalize(vec3(e.x + (e.x >= 0.0f ? -fold : fold), e.y + (e.y >= 0.0f ? -fold : fold), z));
+}
+
+// A sample carried from a stratum of the previous frame to a pixel of a stratum of this one: 24 bits of the stratum's
+// number (pictures of 150 million pixels), 4 of each pixel's number in its stratum.
+uint packWinner(uint fromStratum, uint fromPixel, uint toPixel) { return fromStratum << 8u | fromPixel << 4u | toPixel; }
+uint winnerStratum(uint winner) { return winner >> 8u; }
+uint winnerFromPixel(uint winner) { return winner >> 4u & 15u; }
+uint winnerToPixel(uint winner) { return winner & 15u; }
+
+// Rec. 709 weights, as of display values; only their being positive and of sum 1 matters.
+float luminanceOf(vec3 color) { return dot(color, vec3(0.2126f, 0.7152f, 0.0722f)); }
+
+// Normals of one surface in neighbouring pixels: within 25 degrees.
+const float kSameNormalCosine = 0.9f;
+// Neighbouring samples of one surface lie at most this many pixels apart: a tap two rows away, each jittered by one.
+const float kSameSurfacePixels = 4.0f;
+
+// Is `other` the surface of `point`? `footprint`: width of a pixel at the point, qu; `cosine`: between normal and view.
+bool isSameSurface(vec3 point, vec3 normal, vec3 other, vec3 otherNormal, float footprint, float cosine)
+{
+    vec3 apart = other - point;
+    float reach = kSameSurfacePixels * footprint / max(cosine, kGrazingCosine);
+    return abs(dot(normal, apart)) <= footprint && dot(apart, apart) <= reach * reach &&
+           dot(normal, otherNormal) >= kSameNormalCosine;
+}
+
+// Edge-stopping weights (SVGF, section 4.4). A plane one pixel away counts 1/e; normals with exponent 128.
+float planeWeight(float distance, float footprint) { return exp(-abs(distance) / footprint); }
+
+float normalWeight(float cosine)
+{
+    float w = max(cosine, 0.0f);
+    w *= w;
+    w *= w;
+    w *= w;
+    w *= w;
+    w *= w;
+    w *= w;
+    return w * w;
+}
+
+// Differences of this many standard deviations count 1/e (SVGF, sigma_l).
+const float kLuminanceSigmas = 4.0f;
+// Differences that no display of 8 bits shows, a quarter of its step, are none.
+const float kInvisibleLuminance = 1.0f / 1020.0f;
+
+// `variance`: of the difference.
+float luminanceWeight(float difference, float variance)
+{
+    return exp(-abs(difference) / (kLuminanceSigmas * sqrt(variance) + kInvisibleLuminance));
+}
+
+// Variance of a mean of n samples from their moments; n - 1 because the mean is theirs. n >= 2.
+float varianceOfMean(vec2 moments, float n) { return max(moments.y - moments.x * moments.x, 0.0f) / (n - 1.0f); }
+
+// Relative changes from this on say that nothing of the old light is left to use.
+const float kFullChange = 0.25f;
+
+// How much of the history is wrong: A-SVGF, equation 4, steeper. A gradient of an unchanged point is exactly 0, so no
+// steady light loses history by it.
+float historyLoss(vec2 gradient)
+{
+    return gradient.y > 0.0f ? clamp(abs(gradient.x) / (kFullChange * gradient.y), 0.0f, 1.0f) : 0.0f;
+}
+
+// Share of the new sample in the mean: 1/n while nothing changes, more where the history is wrong.
+float blendFactor(float historySamples, float loss) { return max(1.0f / (historySamples + 1.0f), loss); }
+
+// One row of the 5 x 5 kernel (B3 spline), by distance from the centre in taps.
+float splineKernel(int distance)
+{
+    return distance == 0 ? 0.375f : (distance == 1 || distance == -1) ? 0.25f : 0.0625f;
+}
+
+// The same of the 3 x 3 kernel.
+float tentKernel(int distance) { return distance == 0 ? 0.5f : 0.25f; }
+
+#endif

@@ -1,0 +1,31 @@
+// The pixel that a projected sample has won shows that sample's surface point, lit with that sample's random numbers:
+// the direct stage repeats the previous frame's work there. Material and glow stay the pixel's own.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "rt/extensions.glsl"
+#include "rt/denoise.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+void main()
+{
+    if (any(greaterThanEqual(gl_GlobalInvocationID.xy, denoise.strata)))
+        return;
+    uint stratum = stratumIndex(gl_GlobalInvocationID.xy);
+    uint winner = WinnerTable(denoise.winners).at[stratum];
+    if (winner == kNoWinner)
+        return;
+    RtPixel old = PixelTable(denoise.previousPixels).at[pixelIndex(
+        pixelOfStratum(winnerStratum(winner), winnerFromPixel(winner)))];
+    RtMotion motion = MotionTable(denoise.motionToCurrent).at[old.entity];
+    HitPoint point = movePoint(motion, HitPoint(old.position, old.error));
+    vec3 normal = moveDirection(motion, old.normal);
+    uint index = pixelIndex(pixelOfStratum(stratum, winnerToPixel(winner)));
+    PixelTable(denoise.pixels).at[index].position = point.position;
+    PixelTable(denoise.pixels).at[index].error = point.error;
+    PixelTable(denoise.pixels).at[index].normal = normal;
+    PixelTable(denoise.pixels).at[index].geometricNormal = moveDirection(motion, old.geometricNormal);
+    PixelTable(denoise.pixels).at[index].keyPixel = old.keyPixel;
+    PixelTable(denoise.pixels).at[index].keyFrame = old.keyFrame;
+    GuideTable(denoise.guides).at[index] = RtGuide(point.position, packNormal(normal));
+}

@@ -1,0 +1,82 @@
+// What the denoiser's and the anti-aliasing's passes read: one text for C++ and GLSL, scalar layout. See
+// docs/denoising.md for the order of the passes.
+#ifndef Q3RT_SHARED_RT_DENOISE_H
+#define Q3RT_SHARED_RT_DENOISE_H
+#include "constants.h"
+#include "rt_scene.h"
+SHARED_BEGIN
+
+SHARED_CONST kStratumPixels = 3u; // a side
+SHARED_CONST kNoWinner = 0xffffffffu;
+
+// Levels of the filters; level i reaches 2^i texels of its grid a tap. Both counts decide in which of two buffers the
+// result lies: level i goes from buffer i & 1 to the other one.
+SHARED_CONST kGradientLevels = 4u;
+SHARED_CONST kFilterLevels = 5u;
+
+// Frames that the mean of an unchanged pixel spans at most.
+SHARED_FLOAT kHistoryLimit = 64.0f;
+// From this many samples on a pixel's own moments give its variance, before that its neighbours'.
+SHARED_FLOAT kTemporalVarianceSamples = 4.0f;
+
+// A view as cameraDirection() of lib/ray.glsl has it.
+struct RtCamera {
+    vec3 eye;
+    vec3 forward;
+    vec3 left; // scaled by the tangent of half the field of view
+    vec3 up;
+    vec3 forwardUnit;
+};
+
+SHARED_CONST kMotionUnknown = 0u; // what shows it starts anew
+SHARED_CONST kMotionNone = 1u;
+SHARED_CONST kMotionRigid = 2u;
+
+// World points of one frame in the world of another, for one entity.
+struct RtMotion {
+    vec4 rows[3];
+    uint kind; // kMotion*
+};
+
+// Where a pixel's light lies: enough to tell whether two pixels show the same surface.
+struct RtGuide {
+    vec3 position;
+    uint normal; // packNormal(), kNoNormal: unlit
+};
+
+SHARED_CONST kDenoiseHistory = 0x1u; // the previous frame's buffers hold something
+
+struct RtDenoise {
+    SHARED_ADDRESS pixels; // RtPixel[]
+    SHARED_ADDRESS previousPixels;
+    SHARED_ADDRESS irradiance; // vec4[]: L as traced
+    SHARED_ADDRESS previousIrradiance;
+    SHARED_ADDRESS guides; // RtGuide[]
+    SHARED_ADDRESS previousGuides;
+    SHARED_ADDRESS light; // vec4[]: mean L over frames; w: samples in it
+    SHARED_ADDRESS previousLight;
+    SHARED_ADDRESS moments; // vec2[]: means of luminance and its square
+    SHARED_ADDRESS previousMoments;
+    SHARED_ADDRESS winners;      // uint[], a stratum: packWinner() of the sample carried into it, or kNoWinner
+    SHARED_ADDRESS gradients[2]; // vec2[], a stratum: change of luminance, and what it is relative to
+    SHARED_ADDRESS filtered[2];  // vec4[]: L; w: variance of its luminance
+    SHARED_ADDRESS motionToCurrent;  // RtMotion[], by entity of the previous frame
+    SHARED_ADDRESS motionToPrevious; // RtMotion[], by entity of this frame
+    RtCamera camera;
+    RtCamera previousCamera;
+    SHARED_UVEC2 size;   // pixels
+    SHARED_UVEC2 strata; // size / 3, rounded up
+    uint frame;          // of random numbers
+    uint previousFrame;
+    float pixelTangent; // width of a pixel at depth 1 (the larger of both ways)
+    uint flags;         // kDenoise*
+};
+
+struct RtDenoisePush {
+    SHARED_ADDRESS denoise;
+    uint level;
+    uint reserved;
+};
+
+SHARED_END
+#endif
