@@ -54,6 +54,7 @@ class GpuRenderer : public FrontEnd {
     void onEndRegistration() final;
     void onFrame(const FrameCommands& frame, FrameImage* capture) final;
     void onContentDropped() final;
+    void onMinimize() final { m_context->minimize(); }
     void drawFrame(const FrameCommands& frame, FrameImage* capture);
     void followTextures(bool flush);
     void publishStats();

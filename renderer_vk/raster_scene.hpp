@@ -44,6 +44,8 @@ class RasterScene {
     /// Sends what was gathered to the GPU. Call after the last add, before the graph runs.
     void uploadFrame();
 
+    /// Pipelines that exist; does not rise while drawing what was known at warmPipelines().
+    size_t pipelineCount() const { return m_pipelines.size(); }
     /// StageTable of the frame on the GPU (StageState[]); valid after uploadFrame().
     BufferSlice stageSlice() const { return m_stageSlice; }
     /// Static world vertices (Vertex[]) for other users of them.

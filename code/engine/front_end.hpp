@@ -78,6 +78,8 @@ class FrontEnd : public Renderer {
     virtual void onEndRegistration() {}
     /// Draws and presents. Fills `capture` (final picture) if it is not null.
     virtual void onFrame(const FrameCommands& frame, FrameImage* capture) = 0;
+    /// The console command of that name.
+    virtual void onMinimize() {}
     /// Everything registered is about to be destroyed; legal at any moment, also before the first registration.
     virtual void onContentDropped() {}
 

@@ -35,6 +35,9 @@ struct FrontEndCommands {
     static void skinList() {
         run([](FrontEnd& f) { f.printSkinList(); });
     }
+    static void minimize() {
+        run([](FrontEnd& f) { f.onMinimize(); });
+    }
     static void gfxInfo() {
         run([](FrontEnd& f) {
             const DisplayInfo& d = f.m_display;
@@ -51,7 +54,7 @@ struct FrontEndCommands {
     static constexpr Entry kTable[] = {{"screenshot", screenshot}, {"screenshotJPEG", screenshotJpeg},
                                        {"shaderlist", shaderList}, {"imagelist", imageList},
                                        {"modellist", modelList},   {"skinlist", skinList},
-                                       {"gfxinfo", gfxInfo}};
+                                       {"gfxinfo", gfxInfo},       {"minimize", minimize}};
 };
 
 namespace {

@@ -4,7 +4,6 @@
 //     SETTING(name, type, default, minimum, maximum, flags, unit, "meaning")
 // type: Int, Float or Text; minimum == maximum: any value; flags: a letter group of settingFlag.
 
-#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -43,7 +42,6 @@ class SettingsBinding {
     void registerAll(EngineServices& engine);
     /// Copies the cvars' values into the structs. Nothing happens before registerAll().
     void refresh();
-    std::vector<SettingInfo> list() const;
 
   private:
     struct Entry {
@@ -57,9 +55,6 @@ class SettingsBinding {
 std::string settingDefaultText(int value);
 std::string settingDefaultText(float value);
 std::string settingDefaultText(const std::string& value);
-
-/// Markdown table, one row a setting, sorted by name.
-std::string formatSettingsTable(std::span<const SettingInfo> settings);
 
 } // namespace q3rt
 

@@ -23,6 +23,7 @@ class TestRenderer final : public GpuRenderer {
     using GpuRenderer::GpuRenderer;
     std::vector<std::string> messages() { return *context().device().validationMessages(); }
     const World* map() const { return world(); }
+    size_t pipelineCount() { return raster().pipelineCount(); }
 
   private:
     void drawWorldView(FrameGraph& graph, FrameTargets& targets, const FrameCommands& frame,
@@ -108,9 +109,11 @@ TEST(RasterDraw, MapIsDrawnWithoutValidationMessages) {
     const int shader = renderer.registerShader("gfx/2d/bigchars", false);
     renderer.endRegistration();
     const SceneView view = spawnView(*renderer.map(), 0);
+    const size_t warmed = renderer.pipelineCount();
     const std::vector<uint8_t> first = drawFrame(renderer, services, view, shader);
     const std::vector<uint8_t> second = drawFrame(renderer, services, view, shader);
     drawFrame(renderer, services, view, shader); // times are known when their frame's slot comes round
+    EXPECT_EQ(renderer.pipelineCount(), warmed) << "a pipeline was made during play";
     keepImage("spawn0", first);
     size_t bright = 0;
     for (const uint8_t value : first)
