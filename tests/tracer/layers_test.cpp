@@ -72,7 +72,7 @@ TEST(Layers, LaterDrawnCoplanarLayersComeFirst) {
     for (int i = 0; i < 100000; ++i) {
         const float t = distance(generator), origin = distance(generator), c = cosine(generator);
         // Both points have the bound of a rebuilt point, and the ray meets the plane under this cosine.
-        const float wobble = 0.5f * kSameDistanceError * (t + origin) / c;
+        const float wobble = kHitPointError * (t + origin) / c;
         const float first = t + wobble * error(generator), second = t + wobble * error(generator);
         const float later = second - 2.0f * shader::sameDistanceStep(second, origin, c);
         const float earlier = first - 1.0f * shader::sameDistanceStep(first, origin, c);
