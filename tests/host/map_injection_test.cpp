@@ -68,6 +68,8 @@ class MapInjection : public testing::TestWithParam<const char*> {};
 TEST_P(MapInjection, EveryImportMayFail) {
     const std::string path = std::string(Q3RT_BUILD_DIR) + "/renderer_" + GetParam() + "_x86_64.so";
     if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not built";
+    if (std::strcmp(GetParam(), "null") != 0 && !std::getenv("Q3RT_LONG_TESTS"))
+        GTEST_SKIP() << "takes minutes on a software driver: set Q3RT_LONG_TESTS=1";
     TinyGame files;
     HeadlessEngine engine(files);
     engine.showsMessages = false;
@@ -82,9 +84,7 @@ TEST_P(MapInjection, EveryImportMayFail) {
     }
     loadAndDraw(engine);
     int injected = 0;
-    const bool all = std::strcmp(GetParam(), "null") == 0 || std::getenv("Q3RT_LONG_TESTS");
-    constexpr int kStride = 11; // a prime: not in step with groups of calls
-    for (int n = 1;; n += all ? 1 : kStride) {
+    for (int n = 1;; ++n) {
         restart(engine);
         engine.raiseErrorAtImport(n);
         bool failed = false;
@@ -100,7 +100,7 @@ TEST_P(MapInjection, EveryImportMayFail) {
         // The engine has registered again within the error: the next map loads at once.
         ASSERT_NO_THROW(loadAndDraw(engine)) << "after import " << n;
     }
-    EXPECT_GE(injected, 3);
+    EXPECT_GE(injected, 5);
     std::printf("%s: %d imports failed in turn\n", GetParam(), injected);
     engine.unloadModule();
     EXPECT_EQ(engine.heldResources(), "");
