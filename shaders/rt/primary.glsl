@@ -106,6 +106,8 @@ float addRange(inout Picture picture, CameraRay ray, uint solidMask, uint layerM
         if (solid.t == 0.0 || picture.passed == vec3(0.0))
             return first;
         addHit(picture, ray, solid.instance, solid.triangle, solid.barycentric, randomNumbers(key, kDimensionLayer).y);
+        if (picture.passed == vec3(0.0))
+            return first;
         from = solid.t * (1.0 + 2.0 * kUnitRoundoff);
     }
     return first;
@@ -128,7 +130,9 @@ void addSky(inout Picture picture, CameraRay ray)
 void primaryPixel(uvec2 pixelPosition)
 {
     uvec4 key = randomKey(pixelPosition);
-    vec2 inPixel = (rtFrame.flags & kFrameAntialiasing) != 0u ? randomNumbers(key, kDimensionLens).xy : vec2(0.5);
+    vec2 inPixel = vec2(0.5);
+    if ((rtFrame.flags & kFrameAntialiasing) != 0u)
+        inPixel = (rtFrame.flags & kFrameSharedJitter) != 0u ? rtFrame.jitter : randomNumbers(key, kDimensionLens).xy;
     CameraRay ray = makeCameraRay(pixelPosition, inPixel);
     Picture picture;
     picture.passed = vec3(1.0);
