@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/error.hpp"
 #include "gpu/device.hpp"
 #include "gpu/sampler.hpp"
 
@@ -19,9 +20,9 @@ TextureStore::TextureStore(Device& device)
 }
 
 void TextureStore::reset() {
-    // The array and its layout stay, for pipelines refer to them; its slots are filled anew in order.
-    for (uint32_t slot = 0; slot < m_slotCount; ++slot)
-        m_bindless->replace(slot, m_fallback.view(), m_device.samplers().find({}));
+    // The GPU is idle, so the slots are free at once; given back from the last to the first, they come in order again.
+    for (uint32_t slot = static_cast<uint32_t>(m_entries.size()); slot-- > 0;)
+        m_bindless->remove(slot);
     m_entries.clear();
 }
 
@@ -61,12 +62,8 @@ void TextureStore::follow(const TextureLibrary& library, const TextureFilter& fi
         if (id == m_entries.size()) {
             m_entries.emplace_back();
             create(texture, m_entries[id], uploader);
-            if (id < m_slotCount) {
-                m_bindless->replace(id, m_entries[id].image->view(), samplerOf(texture));
-            } else {
-                m_bindless->add(m_entries[id].image->view(), samplerOf(texture));
-                ++m_slotCount;
-            }
+            if (m_bindless->add(m_entries[id].image->view(), samplerOf(texture)) != id)
+                throw DeviceError("texture slots are out of order: restart the renderer with vid_restart");
             continue;
         }
         Entry& entry = m_entries[id];

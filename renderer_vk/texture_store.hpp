@@ -22,7 +22,7 @@ struct TextureFilter {
 class TextureStore {
   public:
     explicit TextureStore(Device& device);
-    /// Forgets all textures (a new library follows).
+    /// Forgets all textures (a new library follows). The GPU must be idle.
     void reset();
     /// Uploads textures that are new or whose version rose, into `uploader` (the caller flushes or records it).
     void follow(const TextureLibrary& library, const TextureFilter& filter, Uploader& uploader);
@@ -43,7 +43,6 @@ class TextureStore {
     GpuImage m_fallback;
     std::unique_ptr<BindlessTextures> m_bindless;
     std::vector<Entry> m_entries;
-    uint32_t m_slotCount = 0; ///< of the bindless array that were ever used; slot = TextureId
 };
 
 } // namespace q3rt
