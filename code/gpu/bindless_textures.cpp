@@ -71,6 +71,7 @@ void BindlessTextures::createSet(uint32_t capacity) {
     const uint32_t before = m_capacity;
     m_capacity = capacity;
     m_entries.resize(capacity, m_fallback);
+    m_stale = false;
     // Low indices are handed out first.
     for (uint32_t index = capacity; index-- > before;)
         m_free->indices.push_back(index);
@@ -114,7 +115,12 @@ uint32_t BindlessTextures::add(VkImageView view, VkSampler sampler) {
 void BindlessTextures::replace(uint32_t index, VkImageView view, VkSampler sampler) {
     m_entries.at(index) = {view, sampler};
     // A descriptor that a pending frame uses may not be rewritten: the change goes into a new set.
-    createSet(m_capacity);
+    m_stale = true;
+}
+
+VkDescriptorSet BindlessTextures::set() {
+    if (m_stale) createSet(m_capacity);
+    return m_set;
 }
 
 void BindlessTextures::remove(uint32_t index) {

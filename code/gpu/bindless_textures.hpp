@@ -26,7 +26,8 @@ class BindlessTextures {
     void remove(uint32_t index);
 
     VkDescriptorSetLayout layout() const { return m_layout; } // stays the same
-    VkDescriptorSet set() const { return m_set; }             // ask when recording: growth makes a new one
+    /// Ask when recording: growth and replacements make a new one, all those since the last call together.
+    VkDescriptorSet set();
     uint32_t capacity() const { return m_capacity; }
 
   private:
@@ -44,6 +45,7 @@ class BindlessTextures {
     VkDescriptorPool m_pool = VK_NULL_HANDLE;
     VkDescriptorSet m_set = VK_NULL_HANDLE;
     uint32_t m_capacity = 0;
+    bool m_stale = false; ///< entries were replaced: the next set() shows them
     std::vector<Entry> m_entries;
     struct FreeList;
     std::shared_ptr<FreeList> m_free; // shared with retired removals, which may outlive this
