@@ -57,7 +57,7 @@ void TraceRenderer::onGpuFrameEnd() {
 
 void TraceRenderer::writeRadiance(const std::string& file) {
     const VkExtent2D extent = m_lastBuffers->area.extent;
-    const std::vector<std::byte> bytes = readBuffer(context().device(), m_lastBuffers->radiance);
+    const std::vector<std::byte> bytes = readBuffer(context().device(), m_lastBuffers->shown());
     std::vector<float> rgb;
     rgb.reserve(size_t{3} * extent.width * extent.height);
     for (size_t i = 0; i < size_t{extent.width} * extent.height; ++i) {
@@ -103,6 +103,11 @@ void TraceRenderer::warmPipelines() {
         input.extent = kWarmExtent;
         m_pipelines->warm(commands, input);
         if (buffers.denoise) m_denoisePipelines->warm(commands);
+        if (buffers.taa) {
+            m_taaPipeline.bind(commands);
+            m_taaPipeline.push(commands, RtTaaPush{});
+            m_taaPipeline.warmUp(commands);
+        }
     });
     m_views.clear();
     m_lastViewKey.clear();

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "gpu/device.hpp"
+#include "spirv/rt_taa_comp.hpp"
 
 namespace q3rt {
 
@@ -20,6 +21,13 @@ constexpr float kFilmicWhite = 4.0f;
 
 float tangentOfHalf(float degrees) {
     return static_cast<float>(std::tan(static_cast<double>(degrees) * 3.14159265358979323846 / 360.0));
+}
+
+/// Point n of the R2 sequence (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences"): steps by the
+/// powers of 1/g, g^3 = g + 1. In [0, 1).
+vec2 spreadOverSquare(uint32_t n) {
+    const double x = n * 0.75487766624669276, y = n * 0.56984029099805327;
+    return {static_cast<float>(x - std::floor(x)), static_cast<float>(y - std::floor(y))};
 }
 
 template <typename T>
@@ -159,7 +167,7 @@ const TracedView& TraceRenderer::prepareView(const FrameCommands& frame, const S
     describeSettings(view.frame);
     view.frame.sampleNumber = countSample(frame, scene);
     view.frame.frame = m_frameNumber++;
-    prepareDenoise(frame, scene, buffers, view.frame);
+    prepareHistory(frame, scene, buffers, view.frame);
     view.frame.pixels = buffers.pixels.address();
     view.frame.irradiance = buffers.irradiance.address();
     view.frame.lighting = buffers.denoise ? buffers.denoise->result().address() : view.frame.irradiance;
@@ -170,12 +178,12 @@ const TracedView& TraceRenderer::prepareView(const FrameCommands& frame, const S
     return view;
 }
 
-void TraceRenderer::prepareDenoise(const FrameCommands& frame, const SceneView& scene, ViewBuffers& buffers,
+void TraceRenderer::prepareHistory(const FrameCommands& frame, const SceneView& scene, ViewBuffers& buffers,
                                    RtFrame& out) {
-    const bool wanted = m_settings.rt_denoiser && m_settings.rt_illumination && !m_settings.rt_accumulate;
-    buffers.turnHistory(context().device(), wanted);
-    if (!wanted) return;
-    if (!m_denoisePipelines) m_denoisePipelines = std::make_unique<DenoisePipelines>(context().device());
+    const bool denoised = m_settings.rt_denoiser && m_settings.rt_illumination && !m_settings.rt_accumulate;
+    const bool antialiased = m_settings.rt_taa && !m_settings.rt_accumulate;
+    buffers.turnHistory(context().device(), denoised, antialiased);
+    if (!denoised && !antialiased) return;
     buffers.motion.advance({.camera = cameraOf(out),
                             .timeMs = scene.timeMs,
                             .sampleFrame = out.frame,
@@ -184,8 +192,21 @@ void TraceRenderer::prepareDenoise(const FrameCommands& frame, const SceneView& 
                             .entities = findPlaces(frame, scene, m_geometry)});
     const VkDeviceAddress toCurrent = m_scene->keepForFrame(std::span(buffers.motion.toCurrent()));
     const VkDeviceAddress toPrevious = m_scene->keepForFrame(std::span(buffers.motion.toPrevious()));
-    const RtDenoise table = describeDenoise(buffers, toCurrent, toPrevious);
-    buffers.denoise->table = m_scene->keepForFrame(std::span<const RtDenoise>(&table, 1));
+    if (denoised) {
+        if (!m_denoisePipelines) m_denoisePipelines = std::make_unique<DenoisePipelines>(context().device());
+        const RtDenoise table = describeDenoise(buffers, toCurrent, toPrevious);
+        buffers.denoise->table = m_scene->keepForFrame(std::span<const RtDenoise>(&table, 1));
+    }
+    if (antialiased) {
+        if (!m_taaPipeline)
+            m_taaPipeline =
+                ComputePipeline(context().device(), {"taa", {shaders::rt_taa_comp, {}}, {{}, sizeof(RtTaaPush)}});
+        const RtTaa table = describeTaa(buffers, toPrevious);
+        buffers.taa->table = m_scene->keepForFrame(std::span<const RtTaa>(&table, 1));
+        // The mean over frames wants one jitter for the whole picture, evenly spread over the frames.
+        out.flags |= kFrameSharedJitter;
+        out.jitter = spreadOverSquare(m_pictureNumber);
+    }
 }
 
 DenoiseWork TraceRenderer::describeDenoiseWork(const ViewBuffers& buffers) const {
@@ -214,7 +235,7 @@ void TraceRenderer::dropUnusedBuffers() {
 
 RtOutput TraceRenderer::describeOutput(const ViewBuffers& buffers, const VkRect2D& area) const {
     RtOutput output{};
-    output.radiance = buffers.radiance.address();
+    output.radiance = buffers.shown().address();
     output.corner = {static_cast<uint32_t>(area.offset.x), static_cast<uint32_t>(area.offset.y)};
     output.width = area.extent.width;
     output.curve = m_settings.rt_tonemap != 0 ? kCurveFilmic : kCurveClamp;

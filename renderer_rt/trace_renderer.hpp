@@ -4,6 +4,7 @@
 #include <list>
 
 #include "renderer_rt/passes/denoise.hpp"
+#include "renderer_rt/passes/taa.hpp"
 #include "renderer_rt/trace_settings.hpp"
 #include "renderer_vk/gpu_renderer.hpp"
 
@@ -28,8 +29,8 @@ class TraceRenderer final : public GpuRenderer {
     std::string extraStats() const override;
 
     const TracedView& prepareView(const FrameCommands& frame, const SceneView& scene, ViewBuffers& buffers);
-    /// Turns the view's history and makes the denoiser's table of the frame; nothing if there is no denoiser.
-    void prepareDenoise(const FrameCommands& frame, const SceneView& scene, ViewBuffers& buffers, RtFrame& out);
+    /// Turns the view's histories and makes the tables of the denoiser and of temporal anti-aliasing, if they are on.
+    void prepareHistory(const FrameCommands& frame, const SceneView& scene, ViewBuffers& buffers, RtFrame& out);
     DenoiseWork describeDenoiseWork(const ViewBuffers& buffers) const;
     void describeView(const SceneView& scene, VkExtent2D extent, RtFrame& out) const;
     void describeSettings(RtFrame& out) const;
@@ -53,6 +54,7 @@ class TraceRenderer final : public GpuRenderer {
     TraceSettings m_settings;
     std::unique_ptr<StagePipelines> m_pipelines;
     std::unique_ptr<DenoisePipelines> m_denoisePipelines; ///< made when the denoiser is first wanted
+    ComputePipeline m_taaPipeline;                        ///< made when anti-aliasing is first wanted
     std::unique_ptr<TracedScene> m_scene;
     std::list<ViewBuffers> m_buffers; ///< addresses stay
     std::list<TracedView> m_views;    ///< of this frame; passes refer to them

@@ -38,15 +38,21 @@ ViewBuffers::ViewBuffers(Device& device, const VkRect2D& viewArea)
     , irradiance(makeViewBuffer(device, viewArea.extent, sizeof(vec4), "irradiance"))
     , radiance(makeViewBuffer(device, viewArea.extent, sizeof(vec4), "radiance")) {}
 
-void ViewBuffers::turnHistory(Device& device, bool denoised) {
-    if (!denoised) {
-        denoise.reset();
-        return;
-    }
-    if (!denoise) {
-        denoise = std::make_unique<DenoiseBuffers>(device, area.extent);
+TaaBuffers::TaaBuffers(Device& device, VkExtent2D extent)
+    : history(makeViewBuffer(device, extent, sizeof(vec4), "taa history"))
+    , previousHistory(makeViewBuffer(device, extent, sizeof(vec4), "taa previous history")) {}
+
+void ViewBuffers::turnHistory(Device& device, bool denoised, bool antialiased) {
+    if (denoised != (denoise != nullptr)) {
+        denoise = denoised ? std::make_unique<DenoiseBuffers>(device, area.extent) : nullptr;
         motion = ViewMotion();
     }
+    if (antialiased != (taa != nullptr)) {
+        taa = antialiased ? std::make_unique<TaaBuffers>(device, area.extent) : nullptr;
+        motion = ViewMotion();
+    }
+    if (taa) std::swap(taa->history, taa->previousHistory);
+    if (!denoise) return;
     std::swap(pixels, denoise->previousPixels);
     std::swap(irradiance, denoise->previousIrradiance);
     std::swap(denoise->guides, denoise->previousGuides);
@@ -85,6 +91,20 @@ RtDenoise describeDenoise(const ViewBuffers& buffers, VkDeviceAddress toCurrent,
     table.pixelTangent = std::max(2.0f * glm::length(table.camera.left) / static_cast<float>(size.width),
                                   2.0f * glm::length(table.camera.up) / static_cast<float>(size.height));
     table.flags = motion.isContinuous() ? kDenoiseHistory : 0;
+    return table;
+}
+
+RtTaa describeTaa(const ViewBuffers& buffers, VkDeviceAddress toPrevious) {
+    RtTaa table{};
+    table.pixels = buffers.pixels.address();
+    table.radiance = buffers.radiance.address();
+    table.history = buffers.taa->history.address();
+    table.previousHistory = buffers.taa->previousHistory.address();
+    table.motionToPrevious = toPrevious;
+    table.camera = buffers.motion.current().camera;
+    table.previousCamera = buffers.motion.previous().camera;
+    table.size = {buffers.area.extent.width, buffers.area.extent.height};
+    table.hasHistory = buffers.motion.isContinuous() ? 1 : 0;
     return table;
 }
 

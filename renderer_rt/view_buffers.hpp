@@ -1,11 +1,13 @@
 #pragma once
-// Buffers of one view, kept between frames: what the stages hand on, the running mean, and the denoiser's history if
-// there is a denoiser.
+// Buffers of one view, kept between frames: what the stages hand on, the running mean, and the histories of the
+// denoiser and of temporal anti-aliasing if they are on.
 
 #include <memory>
 
 #include "gpu/buffer.hpp"
 #include "renderer_rt/view_motion.hpp"
+#include "shaders/shared/rt_denoise.h"
+#include "shaders/shared/rt_taa.h"
 
 namespace q3rt {
 
@@ -29,18 +31,28 @@ struct DenoiseBuffers {
     Buffer& result() { return filtered[kFilterLevels & 1]; }
 };
 
+struct TaaBuffers {
+    Buffer history, previousHistory;
+    VkDeviceAddress table = 0; ///< RtTaa of the frame
+    TaaBuffers(Device& device, VkExtent2D extent);
+};
+
 struct ViewBuffers {
     VkRect2D area{}; ///< on the target
     Buffer pixels, irradiance, radiance;
     ViewMotion motion;
     std::unique_ptr<DenoiseBuffers> denoise; ///< null: no denoiser
+    std::unique_ptr<TaaBuffers> taa;         ///< null: no temporal anti-aliasing
     uint32_t lastPicture = 0;                ///< number of the last drawn frame that used it
     ViewBuffers(Device& device, const VkRect2D& viewArea);
-    /// Makes or drops the denoiser's buffers; what the last frame left becomes its history.
-    void turnHistory(Device& device, bool denoised);
+    /// Makes or drops what is kept from frame to frame; what the last frame left becomes its history.
+    void turnHistory(Device& device, bool denoised, bool antialiased);
+    /// Radiance as the picture shows it.
+    const Buffer& shown() const { return taa ? taa->history : radiance; }
 };
 
 /// The denoiser's table for the frame. The motion's tables are where `toCurrent` and `toPrevious` say.
 RtDenoise describeDenoise(const ViewBuffers& buffers, VkDeviceAddress toCurrent, VkDeviceAddress toPrevious);
+RtTaa describeTaa(const ViewBuffers& buffers, VkDeviceAddress toPrevious);
 
 } // namespace q3rt

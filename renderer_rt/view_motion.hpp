@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scene/entity_geometry.hpp"
-#include "shaders/shared/rt_denoise.h"
+#include "shaders/shared/rt_motion.h"
 
 namespace q3rt {
 

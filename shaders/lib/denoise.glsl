@@ -1,19 +1,9 @@
-// Arithmetic of the denoiser: projection, packing, edge-stopping weights, blending. Pure functions.
+// Arithmetic of the denoiser: packing, edge-stopping weights, blending. Pure functions.
 // Schied et al. 2017, "Spatiotemporal Variance-Guided Filtering" (SVGF), sections 4.2 to 4.4; Schied, Peters,
 // Dachsbacher 2018, "Gradient Estimation for Real-Time Adaptive Temporal Filtering" (A-SVGF), section 4.
 #ifndef Q3RT_LIB_DENOISE_GLSL
 #define Q3RT_LIB_DENOISE_GLSL
 #include "shared/constants.h"
-
-// The inverse of cameraDirection(): place in the picture, (0, 0) top left to (1, 1) bottom right, and depth along the
-// view's axis. The place means nothing where depth <= 0.
-vec3 projectPoint(vec3 eye, vec3 forward, vec3 left, vec3 up, vec3 forwardUnit, vec3 point)
-{
-    vec3 v = point - eye;
-    float depth = dot(v, forwardUnit) / dot(forward, forwardUnit);
-    vec3 aside = v / depth - forward;
-    return vec3(0.5f - 0.5f * dot(aside, left) / dot(left, left), 0.5f - 0.5f * dot(aside, up) / dot(up, up), depth);
-}
 
 // Unit normals in 32 bits (octahedral map: Cigolle et al. 2014, "A Survey of Efficient Representations for Independent
 // Unit Vectors"). packSnorm2x16 never gives -32768, which marks pixels without a surface.
@@ -22,7 +12,8 @@ const uint kNoNormal = 0x80008000u;
 uint packNormal(vec3 n)
 {
     vec3 p = n / (abs(n.x) + abs(n.y) + abs(n.z));
-    vec2 folded = vec2((1.0f - abs(p.y)) * (p.x >= 0.0f ? 1.0f : -1.0f), (1.0f - abs(p.x)) * (p.y >= 0.0f ? 1.0f : -1.0f));
+    vec2 side = vec2(p.x >= 0.0f ? 1.0f : -1.0f, p.y >= 0.0f ? 1.0f : -1.0f);
+    vec2 folded = vec2((1.0f - abs(p.y)) * side.x, (1.0f - abs(p.x)) * side.y);
     return packSnorm2x16(p.z >= 0.0f ? vec2(p.x, p.y) : folded);
 }
 
@@ -36,7 +27,10 @@ vec3 unpackNormal(uint bits)
 
 // A sample carried from a stratum of the previous frame to a pixel of a stratum of this one: 24 bits of the stratum's
 // number (pictures of 150 million pixels), 4 of each pixel's number in its stratum.
-uint packWinner(uint fromStratum, uint fromPixel, uint toPixel) { return fromStratum << 8u | fromPixel << 4u | toPixel; }
+uint packWinner(uint fromStratum, uint fromPixel, uint toPixel)
+{
+    return fromStratum << 8u | fromPixel << 4u | toPixel;
+}
 uint winnerStratum(uint winner) { return winner >> 8u; }
 uint winnerFromPixel(uint winner) { return winner >> 4u & 15u; }
 uint winnerToPixel(uint winner) { return winner & 15u; }

@@ -2,8 +2,8 @@
 #ifndef Q3RT_RT_DENOISE_GLSL
 #define Q3RT_RT_DENOISE_GLSL
 #include "lib/denoise.glsl"
-#include "lib/offset.glsl"
 #include "lib/random.glsl"
+#include "rt/motion.glsl"
 #include "shared/rt_denoise.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer DenoiseTable { RtDenoise value; };
@@ -12,7 +12,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) buffer GuideTable 
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer ColorTable { vec4 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer PairTable { vec2 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer WinnerTable { uint at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer MotionTable { RtMotion at[]; };
 
 layout(push_constant, scalar) uniform Push { RtDenoisePush push; };
 
@@ -28,25 +27,9 @@ uvec2 pixelOfStratum(uint stratum, uint i)
     return corner + uvec2(i % kStratumPixels, i / kStratumPixels);
 }
 
-bool isInside(ivec2 pixel) { return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(denoise.size))); }
-
-vec3 projectTo(RtCamera camera, vec3 point)
+bool isInside(ivec2 pixel)
 {
-    return projectPoint(camera.eye, camera.forward, camera.left, camera.up, camera.forwardUnit, point);
-}
-
-float cosineFrom(RtCamera camera, vec3 point, vec3 normal) { return abs(dot(normal, normalize(point - camera.eye))); }
-
-HitPoint movePoint(RtMotion motion, HitPoint point)
-{
-    return motion.kind == kMotionRigid ? transformHitPoint(motion.rows[0], motion.rows[1], motion.rows[2], point) : point;
-}
-
-vec3 moveDirection(RtMotion motion, vec3 v)
-{
-    if (motion.kind != kMotionRigid)
-        return v;
-    return normalize(vec3(dot(vec3(motion.rows[0]), v), dot(vec3(motion.rows[1]), v), dot(vec3(motion.rows[2]), v)));
+    return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(denoise.size)));
 }
 
 bool isFinite(vec3 v) { return !any(isnan(v)) && !any(isinf(v)); }

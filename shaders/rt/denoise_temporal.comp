@@ -1,6 +1,6 @@
-// Temporal accumulation: the mean of a surface point's light over frames, found again by back projection, with first and
-// second moments of its luminance and the number of samples. The gradient shortens what has changed (A-SVGF, section
-// 4.4). What is accumulated here is never filtered: blur cannot grow from frame to frame.
+// Temporal accumulation: the mean of a surface point's light over frames, found again by back projection, with first
+// and second moments of its luminance and the number of samples. The gradient shortens what has changed (A-SVGF,
+// section 4.4). What is accumulated here is never filtered: blur cannot grow from frame to frame.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "rt/extensions.glsl"

@@ -62,7 +62,9 @@ void main()
     vec4 light = ColorTable(denoise.light).at[index];
     RtGuide guide = GuideTable(denoise.guides).at[index];
     float variance = 0.0;
-    if (guide.normal != kNoNormal)
-        variance = light.w < kTemporalVarianceSamples ? spatialVariance(pixel, guide, light.w) : temporalVariance(pixel);
+    if (guide.normal != kNoNormal && light.w < kTemporalVarianceSamples)
+        variance = spatialVariance(pixel, guide, light.w);
+    else if (guide.normal != kNoNormal)
+        variance = temporalVariance(pixel);
     ColorTable(denoise.filtered[0]).at[index] = vec4(light.rgb, variance);
 }

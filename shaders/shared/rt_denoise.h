@@ -1,9 +1,8 @@
-// What the denoiser's and the anti-aliasing's passes read: one text for C++ and GLSL, scalar layout. See
+// What the denoiser's passes read: one text for C++ and GLSL, scalar layout. See
 // docs/denoising.md for the order of the passes.
 #ifndef Q3RT_SHARED_RT_DENOISE_H
 #define Q3RT_SHARED_RT_DENOISE_H
-#include "constants.h"
-#include "rt_scene.h"
+#include "rt_motion.h"
 SHARED_BEGIN
 
 SHARED_CONST kStratumPixels = 3u; // a side
@@ -18,25 +17,6 @@ SHARED_CONST kFilterLevels = 5u;
 SHARED_FLOAT kHistoryLimit = 64.0f;
 // From this many samples on a pixel's own moments give its variance, before that its neighbours'.
 SHARED_FLOAT kTemporalVarianceSamples = 4.0f;
-
-// A view as cameraDirection() of lib/ray.glsl has it.
-struct RtCamera {
-    vec3 eye;
-    vec3 forward;
-    vec3 left; // scaled by the tangent of half the field of view
-    vec3 up;
-    vec3 forwardUnit;
-};
-
-SHARED_CONST kMotionUnknown = 0u; // what shows it starts anew
-SHARED_CONST kMotionNone = 1u;
-SHARED_CONST kMotionRigid = 2u;
-
-// World points of one frame in the world of another, for one entity.
-struct RtMotion {
-    vec4 rows[3];
-    uint kind; // kMotion*
-};
 
 // Where a pixel's light lies: enough to tell whether two pixels show the same surface.
 struct RtGuide {

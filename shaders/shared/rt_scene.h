@@ -154,6 +154,7 @@ SHARED_CONST kFrameSoftShadows = 0x8u;
 SHARED_CONST kFrameGrid = 0x10u;
 SHARED_CONST kFrameSkySurfaces = 0x20u;
 SHARED_CONST kFrameAntialiasing = 0x40u;
+SHARED_CONST kFrameSharedJitter = 0x80u; // all rays at RtFrame::jitter of their pixels
 
 struct RtFrame {
     SHARED_ADDRESS instances;
@@ -197,6 +198,7 @@ struct RtFrame {
     ivec3 gridCounts;
     uint cullLights; // rt_cullLights
     vec3 forwardUnit;
+    vec2 jitter; // in a pixel, [0, 1)
 };
 
 struct RtPush {

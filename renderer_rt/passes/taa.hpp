@@ -1,0 +1,13 @@
+#pragma once
+// "taa": the composed picture averaged over jittered frames.
+
+#include "renderer_rt/passes/passes.hpp"
+#include "renderer_rt/view_buffers.hpp"
+
+namespace q3rt {
+
+/// resources.radiance becomes the averaged picture.
+void addTaa(FrameGraph& graph, ViewResources& resources, TaaBuffers& buffers, const ComputePipeline& pipeline,
+            VkExtent2D extent);
+
+} // namespace q3rt

@@ -1,0 +1,121 @@
+// Temporal anti-aliasing of the composed picture: the mean of jittered frames. Each pixel finds its place in the
+// previous result by the motion of what it shows; old colours that the neighbourhood makes implausible are clipped.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "rt/extensions.glsl"
+#include "lib/ray.glsl"
+#include "lib/taa.glsl"
+#include "rt/motion.glsl"
+#include "shared/rt_taa.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer TaaTable { RtTaa value; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer PixelTable { RtPixel at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer ColorTable { vec4 at[]; };
+layout(push_constant, scalar) uniform Push { RtTaaPush push; };
+
+#define taa TaaTable(push.taa).value
+
+uint indexOf(ivec2 pixel)
+{
+    ivec2 inside = clamp(pixel, ivec2(0), ivec2(taa.size) - 1);
+    return uint(inside.y) * taa.size.x + uint(inside.x);
+}
+
+// The pixel among 3 x 3 that shows what is nearest: edges move with what is in front.
+ivec2 findNearest(ivec2 pixel)
+{
+    ivec2 nearest = pixel;
+    float best = 0.0;
+    for (int i = 0; i < 9; ++i) {
+        ivec2 tap = pixel + ivec2(i % 3 - 1, i / 3 - 1);
+        float distance = PixelTable(taa.pixels).at[indexOf(tap)].distance;
+        if (distance > 0.0 && (best == 0.0 || distance < best)) {
+            best = distance;
+            nearest = clamp(tap, ivec2(0), ivec2(taa.size) - 1);
+        }
+    }
+    return nearest;
+}
+
+struct Shift {
+    vec2 pixels;
+    bool known;
+};
+
+// How far what a pixel shows was from here in the previous picture. The sky is infinitely far.
+Shift findShift(ivec2 pixel)
+{
+    RtPixel shown = PixelTable(taa.pixels).at[indexOf(pixel)];
+    vec2 place = (vec2(pixel) + 0.5) / vec2(taa.size);
+    vec3 direction = cameraDirection(taa.camera.forward, taa.camera.left, taa.camera.up, place);
+    vec3 now, old;
+    uint kind = kMotionNone;
+    if (shown.distance == 0.0 && shown.lit == 0u) {
+        now = taa.camera.eye + direction;
+        old = taa.previousCamera.eye + direction;
+    } else {
+        RtMotion motion = MotionTable(taa.motionToPrevious).at[shown.entity];
+        kind = motion.kind;
+        now = shown.lit != 0u ? shown.position : taa.camera.eye + direction * shown.distance;
+        old = movePoint(motion, HitPoint(now, vec3(0.0))).position;
+    }
+    vec3 here = projectTo(taa.camera, now), there = projectTo(taa.previousCamera, old);
+    return Shift((there.xy - here.xy) * vec2(taa.size), kind != kMotionUnknown && here.z > 0.0 && there.z > 0.0);
+}
+
+// Colour in compressed range and frames of the previous result at a place between texel centres.
+vec4 sampleHistory(vec2 place)
+{
+    ivec2 base = ivec2(floor(place));
+    vec2 part = place - vec2(base);
+    vec4 wx = catmullRom(part.x), wy = catmullRom(part.y);
+    vec4 sum = vec4(0.0);
+    for (int y = 0; y < 4; ++y)
+        for (int x = 0; x < 4; ++x) {
+            float weight = wx[x] * wy[y];
+            if (weight == 0.0)
+                continue;
+            vec4 texel = ColorTable(taa.previousHistory).at[indexOf(base + ivec2(x, y) - 1)];
+            sum += weight * vec4(compressRange(texel.rgb), texel.w);
+        }
+    return vec4(sum.rgb, max(sum.w, 1.0));
+}
+
+// What the pixel itself shows is always plausible: a still picture without noise passes unchanged.
+vec3 clipToNeighbours(ivec2 pixel, vec3 color, vec3 own)
+{
+    vec3 first = vec3(0.0), second = vec3(0.0);
+    for (int i = 0; i < 9; ++i) {
+        ivec2 tap = pixel + ivec2(i % 3 - 1, i / 3 - 1);
+        vec3 c = yCoCgFromRgb(compressRange(ColorTable(taa.radiance).at[indexOf(tap)].rgb));
+        first += c / 9.0;
+        second += c * c / 9.0;
+    }
+    vec3 deviation = sqrt(max(second - first * first, vec3(0.0)));
+    vec3 extent = max(deviation * kClipSigmas, abs(yCoCgFromRgb(own) - first));
+    return rgbFromYCoCg(clipToBox(yCoCgFromRgb(color), first, extent));
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(taa.size))))
+        return;
+    vec3 radiance = ColorTable(taa.radiance).at[indexOf(pixel)].rgb;
+    if (any(isnan(radiance)) || any(isinf(radiance)))
+        radiance = vec3(0.0);
+    vec4 result = vec4(radiance, 1.0);
+    Shift shift = findShift(findNearest(pixel));
+    vec2 place = vec2(pixel) + shift.pixels;
+    bool inside = all(greaterThanEqual(place, vec2(-0.5))) && all(lessThan(place, vec2(taa.size) - 0.5));
+    if (taa.hasHistory != 0u && shift.known && inside) {
+        vec4 history = sampleHistory(place);
+        float frames = min(history.w + 1.0, kTaaLimit);
+        vec3 own = compressRange(radiance);
+        vec3 color = mix(clipToNeighbours(pixel, history.rgb, own), own, 1.0 / frames);
+        result = vec4(expandRange(color), frames);
+    }
+    ColorTable(taa.history).at[indexOf(pixel)] = result;
+}

@@ -1,0 +1,28 @@
+// What temporal anti-aliasing reads: one text for C++ and GLSL, scalar layout.
+#ifndef Q3RT_SHARED_RT_TAA_H
+#define Q3RT_SHARED_RT_TAA_H
+#include "rt_motion.h"
+SHARED_BEGIN
+
+// Frames that an unchanged pixel's mean spans at most.
+SHARED_FLOAT kTaaLimit = 24.0f;
+
+struct RtTaa {
+    SHARED_ADDRESS pixels;           // RtPixel[]
+    SHARED_ADDRESS radiance;         // vec4[]: this frame's picture
+    SHARED_ADDRESS history;          // vec4[]: the result; w: frames in it
+    SHARED_ADDRESS previousHistory;
+    SHARED_ADDRESS motionToPrevious; // RtMotion[], by entity of this frame
+    RtCamera camera;
+    RtCamera previousCamera;
+    SHARED_UVEC2 size; // pixels
+    uint hasHistory;   // previousHistory holds the frame before
+    uint reserved;
+};
+
+struct RtTaaPush {
+    SHARED_ADDRESS taa;
+};
+
+SHARED_END
+#endif
