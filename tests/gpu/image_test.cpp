@@ -34,7 +34,7 @@ class ImageTest : public GpuTest {
     }
 
     /// Red byte of the centre of each {texture index, mip}.
-    std::vector<int> sampleReds(const BindlessTextures& textures, const std::vector<uint32_t>& queries) {
+    std::vector<int> sampleReds(BindlessTextures& textures, const std::vector<uint32_t>& queries) {
         const uint32_t count = static_cast<uint32_t>(queries.size() / 2);
         const Buffer query(device(), {.size = queries.size() * sizeof(uint32_t)});
         const Buffer result(device(), {.size = count * 4 * sizeof(float)});
