@@ -9,8 +9,8 @@ inline StageInput makeStageInput(const PassContext& pass, const ViewWork& work) 
     StageInput input;
     input.textures = work.context.textures().set();
     if (work.view.top)
-        input.structures = pass.makeSet(work.pipelines.structureLayout(),
-                                        {bindAccelerationStructure(0, work.view.top->handle())});
+        input.structures =
+            pass.makeSet(work.pipelines.structureLayout(), {bindAccelerationStructure(0, work.view.top->handle())});
     input.push = {work.view.frameSlice.address};
     input.extent = work.extent;
     return input;
