@@ -1,0 +1,97 @@
+#include "direct_shader.hpp"
+
+#include "shaders/shared/constants.h"
+
+namespace q3rt::test {
+namespace {
+
+using namespace glm;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+using uint = uint32_t;
+
+// GLSL's four numbers with the selections that the stage's text makes of them.
+struct Numbers4 {
+    float x, y, z, w;
+    vec2 xy;
+    explicit Numbers4(const glm::vec4& v)
+        : x(v.x)
+        , y(v.y)
+        , z(v.z)
+        , w(v.w)
+        , xy(v.x, v.y) {}
+    Numbers4(const vec3& v, float last)
+        : Numbers4(glm::vec4(v, last)) {}
+};
+
+const DirectInputs* inputsOfRun;
+#define rtFrame inputsOfRun->frame
+
+// In place of lib/random.glsl and of the tables and the tracer behind rt/scene.glsl.
+#define Q3RT_LIB_RANDOM_GLSL
+#define Q3RT_RT_SCENE_GLSL
+Numbers4 randomNumbers(uvec4, uint dimension) { return Numbers4(inputsOfRun->random(dimension)); }
+bool traceVisible(vec3 origin, vec3 direction, float, uint) { return inputsOfRun->visible(origin, direction); }
+uint pixelIndex(uvec2) { return 0; }
+
+struct NumberTable {
+    uint at[1];
+};
+struct PixelTable {
+    RtPixel at[1];
+};
+struct ColorTable {
+    Numbers4 at[1];
+};
+
+#include "lib/light.glsl"
+#include "lib/offset.glsl"
+
+// `buffer T { ... }` declares a table, `T(address)` reaches it.
+#define layout(...)
+#define readonly
+#define buffer struct
+#define TABLE(name, address) (*reinterpret_cast<name*>(address))
+#define NumberTable(address) TABLE(NumberTable, address)
+#define PixelTable(address) TABLE(PixelTable, address)
+#define ColorTable(address) TABLE(ColorTable, address)
+#define TriangleLightTable(address) TABLE(TriangleLightTable, address)
+#define LightRowTable(address) TABLE(LightRowTable, address)
+#define LightTable(address) TABLE(LightTable, address)
+#define NodeTable(address) TABLE(NodeTable, address)
+#define GridTable(address) TABLE(GridTable, address)
+#define vec4 Numbers4
+#include "rt/direct.glsl"
+#undef vec4
+
+} // namespace
+
+const uint kFirstLightDimension = kDimensionLight;
+const float kLeastSkyShare = kLeastSkyChance;
+
+vec3 runDirectStage(DirectInputs& inputs, const RtPixel& pixel) {
+    RtPixel copy = pixel;
+    Numbers4 result(vec3(0.0f), 0.0f);
+    inputs.frame.pixels = reinterpret_cast<uint64_t>(&copy);
+    inputs.frame.irradiance = reinterpret_cast<uint64_t>(&result);
+    inputsOfRun = &inputs;
+    directPixel(uvec2(0));
+    return {result.x, result.y, result.z};
+}
+
+RtPixel makeLitPixel(const vec3 corner[3], const vec2& barycentric, const vec3& shadingNormal,
+                     const vec3& geometricNormal) {
+    const HitPoint hit = makeHitPoint(corner[0], corner[1], corner[2], barycentric);
+    RtPixel pixel{};
+    pixel.position = hit.position;
+    pixel.error = hit.error;
+    pixel.lit = 1;
+    pixel.normal = shadingNormal;
+    pixel.geometricNormal = geometricNormal;
+    return pixel;
+}
+
+vec3 shadowOriginOf(const RtPixel& pixel) { return offsetOrigin(pixel.position, pixel.error, pixel.geometricNormal); }
+
+} // namespace q3rt::test

@@ -1,0 +1,34 @@
+#pragma once
+// The direct stage of the ray tracer (shaders/rt/direct.glsl, lights.glsl, grid.glsl) compiled as C++, with its tables,
+// random numbers and shadow rays given by the test.
+
+#include <functional>
+
+#include "math/vector.hpp"
+#include "shaders/shared/rt_scene.h"
+
+namespace q3rt::test {
+
+struct DirectInputs {
+    RtFrame frame{};                                                        ///< addresses are C++ pointers
+    std::function<vec4(uint dimension)> random;                             ///< four numbers of [0, 1)
+    std::function<bool(const vec3& origin, const vec3& direction)> visible; ///< is (0, 1) of the way free?
+};
+
+/// Number of a light's random dimension in the all-lights sum: this + its number.
+extern const uint kFirstLightDimension;
+/// Least weight of the sky's share in a choice.
+extern const float kLeastSkyShare;
+
+/// L of one pixel: irradiance / 63.75 luxel units, with the ambient term. One run at a time.
+vec3 runDirectStage(DirectInputs& inputs, const RtPixel& pixel);
+
+/// A lit pixel at a point of a triangle, with the error that the primary stage would give it. Normals are unit and on
+/// the side that is seen.
+RtPixel makeLitPixel(const vec3 corner[3], const vec2& barycentric, const vec3& shadingNormal,
+                     const vec3& geometricNormal);
+
+/// Where its shadow rays start.
+vec3 shadowOriginOf(const RtPixel& pixel);
+
+} // namespace q3rt::test
