@@ -1,21 +1,270 @@
 // q3rt trade: what each setting costs and what error it buys.
 
+#include <algorithm>
+#include <cstdio>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
 #include "base/error.hpp"
+#include "formats/text_case.hpp"
 #include "host/commands.hpp"
+#include "host/file_bytes.hpp"
+#include "host/trade_front.hpp"
+#include "host/trade_measure.hpp"
+#include "host/trade_plot.hpp"
 
 namespace q3rt {
+namespace {
+
+struct TradeArguments {
+    std::string recording, renderer = "rt", out, svg, shard = "0/1";
+    MapSourceOptions map;
+    std::vector<int> recordedFrames;
+    PictureSize size{320, 240};
+    CvarList fixed, referenceSet;
+    std::vector<std::string> axes;
+    TradePlan plan;
+    int pictures = 0; ///< 0: by the number of views
+    bool smoke = false, json = false, verbose = false;
+    GameChoice game;
+};
+
+/// A single view's interval comes from several pictures of it.
+constexpr int kPicturesOfSingleView = 4;
+
+/// What every setting approaches: all that is random averaged out, nothing filtered, lights as many as pay.
+constexpr std::pair<const char*, const char*> kReferenceCvars[] = {
+    {"rt_numRandomDL", "4"}, {"rt_cullLights", "1"}, {"rt_denoiser", "0"}, {"rt_taa", "0"}};
+
+void setCvar(std::map<std::string, std::string>& cvars, const std::string& name, const std::string& value) {
+    std::erase_if(cvars, [&](const auto& cvar) { return equalsIgnoringCase(cvar.first, name); });
+    cvars[name] = value;
+}
+
+std::unique_ptr<TradeSource> openSource(const TradeArguments& a) {
+    if (a.recording.empty() == a.map.map.empty())
+        throw CLI::ValidationError("trade", "name either a recording (F.q3t) or --map M");
+    if (a.map.map.empty()) return openRecordingSource(a.recording, a.recordedFrames, a.plan.warmup, a.game);
+    MapSourceOptions map = a.map;
+    if (map.places.empty()) map.places = {"spawn:0"};
+    return openMapSource(map, a.game);
+}
+
+/// A check of CLI11's: what `parse` says of a text, or nothing.
+template <class Parse>
+std::function<std::string(const std::string&)> checkedBy(Parse parse) {
+    return [parse](const std::string& text) {
+        try {
+            parse(text);
+            return std::string();
+        } catch (const UsageError& error) {
+            return std::string(error.what());
+        }
+    };
+}
+
+std::vector<TradePoint> listPoints(const TradeArguments& a, const TradeSession& session) {
+    const auto isDeclared = [&](const std::string& name) { return session.isDeclared(name); };
+    std::vector<TradeAxis> axes;
+    for (const std::string& text : a.axes)
+        axes.push_back(parseAxis(text));
+    if (axes.empty())
+        return listStandardPoints(a.smoke ? kSmokePointCount : kStandardPointCount, a.size, a.fixed, isDeclared);
+    for (const TradeAxis& axis : axes)
+        if (axis.name != "size" && !isDeclared(axis.name))
+            throw UsageError("--axis " + axis.name + ": the renderer " + a.renderer + " has no such setting");
+    return crossAxes(axes, a.size, a.fixed);
+}
+
+/// TAA averages places within a pixel: where a point uses it, the reference does so too.
+std::map<std::string, std::string> chooseReference(const TradeArguments& a, const TradeSession& session,
+                                                   const std::vector<TradePoint>& points) {
+    if (!session.isDeclared("rt_accumulate"))
+        throw UsageError("the renderer " + a.renderer +
+                         " has no rt_accumulate, so there is no reference to measure against; use --renderer rt");
+    std::map<std::string, std::string> cvars(a.fixed.begin(), a.fixed.end());
+    for (const auto& [name, value] : kReferenceCvars)
+        if (session.isDeclared(name)) setCvar(cvars, name, value);
+    const auto usesTaa = [&](const TradePoint& point) {
+        for (const auto& [name, value] : point.cvars)
+            if (equalsIgnoringCase(name, "rt_taa")) return value != "0";
+        return session.isDeclared("rt_taa") && session.defaultOf("rt_taa") != "0";
+    };
+    if (std::any_of(points.begin(), points.end(), usesTaa)) setCvar(cvars, "rt_antialiasing", "1");
+    for (const auto& [name, value] : a.referenceSet)
+        setCvar(cvars, name, value);
+    return cvars;
+}
+
+std::string readCommandLine() {
+    const std::vector<std::byte> bytes = readFileBytes("/proc/self/cmdline");
+    std::string command, argument;
+    for (const std::byte byte : bytes) {
+        if (byte != std::byte{0}) {
+            argument += static_cast<char>(byte);
+            continue;
+        }
+        const bool plain = argument.find_first_of(" '\"$;&|<>*?()") == std::string::npos;
+        command += (command.empty() ? "" : " ") + (plain ? argument : "'" + argument + "'");
+        argument.clear();
+    }
+    return command;
+}
+
+/// Points grouped by what a new start costs: first those that need the same one as the references.
+std::vector<TradePoint> orderByStart(std::vector<TradePoint> points, const TradeSession& session) {
+    const auto startOf = [&](const TradePoint& point) {
+        std::vector<std::string> start = {formatText("%08d %08d", point.size.width, point.size.height)};
+        for (const auto& [name, value] : point.cvars)
+            if (session.isLatched(name)) start.push_back(name + " " + value);
+        return start;
+    };
+    std::stable_sort(points.begin(), points.end(),
+                     [&](const TradePoint& a, const TradePoint& b) { return startOf(a) < startOf(b); });
+    return points;
+}
+
+void measureMissing(TradeSession& session, TradeMeter& meter, TradeFile& file, const std::vector<TradePoint>& shard) {
+    std::vector<TradePoint> missing;
+    for (const TradePoint& point : orderByStart(shard, session))
+        if (!file.find(meter.keyOf(point), session.device())) missing.push_back(point);
+    if (missing.size() < shard.size())
+        std::fprintf(stderr, "%zu of %zu points are measured already\n", shard.size() - missing.size(), shard.size());
+    std::unique_ptr<Progress> progress;
+    const std::string command = readCommandLine();
+    size_t done = 0;
+    for (const TradePoint& point : missing) {
+        meter.prepareReferences(point.size);
+        if (!progress)
+            progress = std::make_unique<Progress>("frame", missing.size() * static_cast<size_t>(meter.framesOfPoint()));
+        TradeResult result =
+            meter.measure(point, [&](int count) { progress->advance(done += static_cast<size_t>(count)); });
+        result.command = command;
+        file.append(result);
+    }
+}
+
+void report(const TradeArguments& a, const std::string& title, const std::vector<TradePoint>& points,
+            std::vector<TradeResult> results) {
+    std::stable_sort(results.begin(), results.end(),
+                     [](const TradeResult& x, const TradeResult& y) { return x.wallMs.median < y.wallMs.median; });
+    std::vector<std::string> labels;
+    for (const TradeResult& result : results)
+        labels.push_back(describePoint(result.point, points));
+    if (!a.svg.empty()) {
+        const std::string svg = drawTradePlot(title, results, labels);
+        writeFileBytes(a.svg, std::as_bytes(std::span(svg)));
+    }
+    if (!a.json) {
+        std::printf("%s\n%s", title.c_str(), formatTradeTable(results, labels).c_str());
+        return;
+    }
+    const std::vector<size_t> front = findFront(costsOf(results));
+    for (size_t i = 0; i < results.size(); ++i) {
+        const bool onFront = std::find(front.begin(), front.end(), i) != front.end();
+        std::printf("{\"key\":\"%s\",\"ms\":%.6g,\"ssim\":%.6g,\"front\":%s}\n", results[i].key.c_str(),
+                    results[i].wallMs.median, results[i].ssim.value, onFront ? "true" : "false");
+    }
+}
+
+void runTrade(TradeArguments a) {
+    const TradeShard shard = parseShard(a.shard);
+    const std::filesystem::path module = findModule(a.renderer);
+    const std::unique_ptr<TradeSource> source = openSource(a);
+    a.plan.pictures = a.pictures > 0 ? a.pictures : source->viewNames().size() > 1 ? 1 : kPicturesOfSingleView;
+    TradeFile file(a.out);
+    TradeSession session(*source, module, a.verbose);
+    session.apply({a.size, {a.fixed.begin(), a.fixed.end()}});
+    const std::vector<TradePoint> points = listPoints(a, session);
+    a.plan.reference = chooseReference(a, session, points);
+    TradeMeter meter(session, *source, a.plan);
+    const std::string device = session.device();
+    measureMissing(session, meter, file, takeShard(points, shard));
+    std::vector<TradeResult> results;
+    for (const TradePoint& point : points)
+        if (const TradeResult* result = file.find(meter.keyOf(point), device)) results.push_back(*result);
+    if (results.empty()) throw UsageError("--shard " + a.shard + " holds no point: use fewer parts");
+    const std::string title = formatText("%s, %zu view%s, %dx%d, %s", source->name().c_str(),
+                                         source->viewNames().size(), source->viewNames().size() == 1 ? "" : "s",
+                                         results[0].point.size.width, results[0].point.size.height, device.c_str());
+    report(a, title, points, std::move(results));
+}
+
+void addSweepOptions(CLI::App& command, TradeArguments& a) {
+    command.add_flag("--smoke", a.smoke, "10 points instead of 24: the most telling ones");
+    command
+        .add_option("--axis", a.axes,
+                    "CVAR=V1,V2,... or size=160x120,320x240: sweep every combination of these instead; several times")
+        ->type_name("CVAR=V1,V2,...")
+        ->check(checkedBy(parseAxis))
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command.add_option("--shard", a.shard, "Measure only part I of N: I/N, I from 0; results merge by concatenation")
+        ->type_name("I/N")
+        ->check(checkedBy(parseShard))
+        ->capture_default_str();
+    command.add_option("--warmup", a.plan.warmup, "Frames drawn before a view's measured ones")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command.add_option("--count", a.plan.frames, "Timed frames a view")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command.add_option("--pictures", a.pictures, "Compared pictures a view (default: 1, of a single view 4)")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--reference-frames", a.plan.referenceFrames, "Frames that the reference averages")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--reference-set",
+            [&a](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) {
+                    const size_t equals = text.find('=');
+                    if (equals == 0 || equals == std::string::npos)
+                        throw CLI::ValidationError("--reference-set", "'" + text + "': write CVAR=VALUE");
+                    a.referenceSet.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+                }
+            },
+            "Set a cvar for the reference only; may be given several times")
+        ->type_name("CVAR=VALUE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+} // namespace
 
 void addTradeCommand(CLI::App& app, int& exitCode) {
-    CLI::App* command =
-        app.add_subcommand("trade", "Measure speed against error over settings (comes in a later version)");
-    command->allow_extras();
-    command->callback([&exitCode]() -> void {
-        exitCode = 1;
-        throw UsageError("trade comes in a later version; until then use 'q3rt replay --stats' and 'q3rt compare'");
+    CLI::App* command = app.add_subcommand(
+        "trade", "Measure speed against error over settings: a line a point, a table, the front, a plot");
+    const auto a = std::make_shared<TradeArguments>();
+    command->add_option("recording", a->recording, "A .q3t file; or --map");
+    command->add_option("--frames", a->recordedFrames, "World frames of the recording, such as 100,900 (default: 4)")
+        ->delimiter(',')
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--map", a->map.map, "Map name, such as oa_dm1");
+    command
+        ->add_option("--at", a->map.places,
+                     "\"x y z pitch yaw\" (units, degrees), spawn:N or spawn:A..B; several times (default spawn:0)")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->add_option("--fov", a->map.fovDegrees, "Horizontal field of view of a map's views in degrees")
+        ->check(CLI::Range(1.0f, 179.0f))
+        ->capture_default_str();
+    command->add_option("--time", a->map.timeMs, "The clock of a map's views, in ms")->capture_default_str();
+    command->add_option("--out", a->out, "File for one JSON object a point; points in it are not measured again")
+        ->required();
+    command->add_option("--svg", a->svg, "Also draw time against error into this file");
+    addRendererOption(*command, a->renderer);
+    addSizeOption(*command, a->size);
+    addSetOption(*command, a->fixed);
+    addSweepOptions(*command, *a);
+    command->add_flag("--json", a->json, "Print a JSON line a point instead of the table");
+    command->add_flag("--verbose", a->verbose, "Show the renderer's messages");
+    addGameOptions(*command, a->game);
+    command->callback([a, &exitCode] {
+        runTrade(*a);
+        exitCode = 0;
     });
 }
 

@@ -9,8 +9,7 @@
 #include "base/error.hpp"
 #include "host/commands.hpp"
 #include "host/file_bytes.hpp"
-#include "host/session.hpp"
-#include "host/still_scene.hpp"
+#include "host/map_stage.hpp"
 
 namespace q3rt {
 namespace {
@@ -27,35 +26,9 @@ struct ViewArguments {
     bool json = false, verbose = false;
 };
 
-/// The file that a module writes its radiance to, before the output curve, when the cvar q3rt_radiance names it.
-constexpr const char* kRadianceFile = "q3rt_radiance.pfm";
-
-EyePoint findEye(const ViewArguments& a, const std::vector<MapEntity>& entities) {
-    unsigned number = 0;
-    char rest = 0;
-    if (std::sscanf(a.at.c_str(), "spawn:%u%c", &number, &rest) == 1) {
-        const std::vector<EyePoint> points = findSpawnPoints(entities);
-        if (number >= points.size())
-            throw UsageError(formatText("%s has %zu spawn points, numbered from 0: choose another --at", a.map.c_str(),
-                                        points.size()));
-        return points[number];
-    }
-    EyePoint eye;
-    if (std::sscanf(a.at.c_str(), "%f %f %f %f %f %c", &eye.origin.x, &eye.origin.y, &eye.origin.z, &eye.pitchDegrees,
-                    &eye.yawDegrees, &rest) != 5)
-        throw UsageError("--at takes \"x y z pitch yaw\" or spawn:N, not '" + a.at + "'");
-    return eye;
-}
-
-/// Registers the scene's models in the module. Missing ones are left out, as the game does.
-void registerScene(HeadlessEngine& engine, std::vector<StillEntity>& scene) {
-    for (StillEntity& still : scene) {
-        if (still.model.empty()) continue;
-        engine.enter(
-            [&](const refexport_t& module) { still.entity.hModel = module.RegisterModel(still.model.c_str()); });
-    }
-    std::erase_if(scene, [](const StillEntity& still) { return !still.model.empty() && still.entity.hModel == 0; });
-}
+/// The ray tracer's command writes the next frame's radiance, before the output curve, into a file named after it.
+constexpr const char *kRadianceCommand = "screenshotHDR", *kRadianceName = "view",
+                     *kRadianceFile = "screenshots/view.pfm";
 
 struct ViewResult {
     HostFrame picture;
@@ -63,21 +36,14 @@ struct ViewResult {
     std::string stats;
 };
 
-ViewResult drawFrames(HeadlessEngine& engine, const ViewArguments& a, const std::vector<StillEntity>& scene,
-                      const refdef_t& view) {
+ViewResult drawFrames(HeadlessEngine& engine, const ViewArguments& a, const MapStage& stage, const refdef_t& view) {
     ViewResult result;
     Progress progress("frame", static_cast<size_t>(a.frames));
     for (int i = 0; i < a.frames; ++i) {
         const bool last = i + 1 == a.frames;
-        if (last) engine.cvars.preset("q3rt_radiance", a.out.ends_with(".pfm") ? kRadianceFile : "");
+        if (last && a.out.ends_with(".pfm")) engine.runCommand({kRadianceCommand, kRadianceName});
         const auto start = std::chrono::steady_clock::now();
-        engine.enter([&](const refexport_t& module) {
-            module.BeginFrame(0);
-            module.ClearScene();
-            for (const StillEntity& still : scene)
-                module.AddRefEntityToScene(&still.entity);
-            module.RenderScene(&view);
-        });
+        stage.drawScene(engine, view);
         auto picture = engine.endFrame(last);
         const auto end = std::chrono::steady_clock::now();
         result.wallMs.push_back(std::chrono::duration<double, std::milli>(end - start).count());
@@ -98,40 +64,23 @@ void writeResult(HeadlessEngine& engine, const ViewArguments& a, const ViewResul
 
 void runView(const ViewArguments& a) {
     const auto files = openGame(a.game);
-    const std::string mapFile = "maps/" + a.map + ".bsp";
-    const auto bytes = files->read(mapFile);
-    if (!bytes) throw ContentError(mapFile + " is not in the game's archives; choose another --map");
-    const Bsp bsp = parseBsp(*bytes, mapFile);
-    const std::vector<MapEntity> entities = parseEntities(bsp.entities);
-    const EyePoint eye = findEye(a, entities);
-    std::vector<StillEntity> scene = buildStillScene(bsp, entities);
-
+    MapStage stage(*files, a.map);
+    const EyePoint eye = stage.findEye(a.at);
     HeadlessEngine engine(*files);
     engine.clockMs = a.timeMs;
-    for (const auto& [name, value] : CvarList{{"r_mode", "-1"},
-                                              {"r_customwidth", std::to_string(a.size.width)},
-                                              {"r_customheight", std::to_string(a.size.height)},
-                                              {"r_fullscreen", "0"},
-                                              {"r_swapInterval", "0"},
-                                              {"q3rt_wantStats", "1"}})
-        engine.cvars.preset(name, value);
-    for (const auto& [name, value] : a.cvars)
-        engine.cvars.preset(name, value);
+    presetPicture(engine.cvars, a.size, a.cvars);
     engine.showsMessages = a.verbose;
     engine.loadModule(findModule(a.renderer));
-    engine.beginRegistration();
-    engine.enter([&](const refexport_t& module) { module.LoadWorld(mapFile.c_str()); });
-    registerScene(engine, scene);
-    engine.enter([](const refexport_t& module) { module.EndRegistration(); });
+    stage.load(engine);
     const glconfig_t& config = engine.config();
     const refdef_t view = makeView(eye, a.fovDegrees, config.vidWidth, config.vidHeight, a.timeMs);
-    const ViewResult result = drawFrames(engine, a, scene, view);
+    const ViewResult result = drawFrames(engine, a, stage, view);
     writeResult(engine, a, result);
     const TimeSummary times = summarizeTimes(result.wallMs);
     if (a.json)
         std::printf("%s\n", statsLine(a.frames, times.medianMs, result.stats).c_str());
     else
-        std::printf("%s: %s at %dx%d, %zu frames, median %.2f ms (%s)\n", a.out.c_str(), mapFile.c_str(),
+        std::printf("%s: %s at %dx%d, %zu frames, median %.2f ms (%s)\n", a.out.c_str(), stage.file().c_str(),
                     config.vidWidth, config.vidHeight, times.count, times.medianMs, config.renderer_string);
     engine.unloadModule();
 }

@@ -120,4 +120,11 @@ std::string CvarTable::value(std::string_view name) const {
     return cvar ? cvar->string : "";
 }
 
+std::vector<std::string> CvarTable::names() const {
+    std::vector<std::string> names;
+    for (const auto& [name, entry] : m_entries)
+        names.push_back(name);
+    return names;
+}
+
 } // namespace q3rt

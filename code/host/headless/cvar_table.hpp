@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "abi/ref_types.h"
 
@@ -28,6 +29,8 @@ class CvarTable {
     /// Null if there is none.
     cvar_t* find(std::string_view name) const;
     std::string value(std::string_view name) const;
+    /// Of all cvars, in lower case and in their order.
+    std::vector<std::string> names() const;
 
   private:
     struct Entry;

@@ -1,0 +1,69 @@
+#include "host/map_stage.hpp"
+
+#include <cstdio>
+
+#include "base/error.hpp"
+
+namespace q3rt {
+
+MapStage::MapStage(FileSource& files, const std::string& map)
+    : m_file("maps/" + map + ".bsp") {
+    const auto bytes = files.read(m_file);
+    if (!bytes) throw ContentError(m_file + " is not in the game's archives; choose another --map");
+    const Bsp bsp = parseBsp(*bytes, m_file);
+    const std::vector<MapEntity> entities = parseEntities(bsp.entities);
+    m_spawnPoints = findSpawnPoints(entities);
+    m_scene = buildStillScene(bsp, entities);
+}
+
+EyePoint MapStage::findEye(const std::string& at) const {
+    unsigned number = 0;
+    char rest = 0;
+    if (std::sscanf(at.c_str(), "spawn:%u%c", &number, &rest) == 1) {
+        if (number >= m_spawnPoints.size())
+            throw UsageError(formatText("%s has %zu spawn points, numbered from 0: choose another --at", m_file.c_str(),
+                                        m_spawnPoints.size()));
+        return m_spawnPoints[number];
+    }
+    EyePoint eye;
+    if (std::sscanf(at.c_str(), "%f %f %f %f %f %c", &eye.origin.x, &eye.origin.y, &eye.origin.z, &eye.pitchDegrees,
+                    &eye.yawDegrees, &rest) != 5)
+        throw UsageError("--at takes \"x y z pitch yaw\" or spawn:N, not '" + at + "'");
+    return eye;
+}
+
+void MapStage::load(HeadlessEngine& engine) {
+    engine.beginRegistration();
+    engine.enter([this](const refexport_t& module) { module.LoadWorld(m_file.c_str()); });
+    for (StillEntity& still : m_scene) {
+        if (still.model.empty()) continue;
+        engine.enter(
+            [&](const refexport_t& module) { still.entity.hModel = module.RegisterModel(still.model.c_str()); });
+    }
+    std::erase_if(m_scene, [](const StillEntity& still) { return !still.model.empty() && still.entity.hModel == 0; });
+    engine.enter([](const refexport_t& module) { module.EndRegistration(); });
+}
+
+void MapStage::drawScene(HeadlessEngine& engine, const refdef_t& view) const {
+    engine.enter([&](const refexport_t& module) {
+        module.BeginFrame(0);
+        module.ClearScene();
+        for (const StillEntity& still : m_scene)
+            module.AddRefEntityToScene(&still.entity);
+        module.RenderScene(&view);
+    });
+}
+
+void presetPicture(CvarTable& cvars, const PictureSize& size, const CvarList& settings) {
+    for (const auto& [name, value] : CvarList{{"r_mode", "-1"},
+                                              {"r_customwidth", std::to_string(size.width)},
+                                              {"r_customheight", std::to_string(size.height)},
+                                              {"r_fullscreen", "0"},
+                                              {"r_swapInterval", "0"},
+                                              {"q3rt_wantStats", "1"}})
+        cvars.preset(name, value);
+    for (const auto& [name, value] : settings)
+        cvars.preset(name, value);
+}
+
+} // namespace q3rt
