@@ -1,0 +1,117 @@
+// The converged picture of the room with one square light against the closed form, pixel by pixel, on every back end.
+
+#include <cmath>
+#include <cstdio>
+#include <gtest/gtest.h>
+
+#include "truth/picture_statistics.hpp"
+#include "truth/test_game.hpp"
+
+namespace q3rt::test {
+namespace {
+
+constexpr int kWidth = 48, kHeight = 36; ///< pixels
+const Camera kCamera{.eye = {-200, -180, 100}, .pitch = 10, .yaw = 40};
+constexpr double kTolerance = 0.01;      ///< of the closed form
+constexpr double kErrors = 4;            ///< standard errors that chance may add
+constexpr double kMeanTolerance = 0.001; ///< of the whole picture
+
+struct RoomPoint {
+    dvec3 position{0}, normal{0};
+    bool onLight = false;
+};
+
+/// Where the ray through a point of the picture (pixels) leaves the room.
+RoomPoint findRoomPoint(double x, double y) {
+    const dvec3 direction = rayDirection(kCamera, kWidth, kHeight, x, y), eye(kCamera.eye);
+    RoomPoint result;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        if (direction[axis] == 0) continue;
+        const bool high = direction[axis] > 0;
+        const double wall = (high ? squareLightRoom::kRoom.maxs : squareLightRoom::kRoom.mins)[axis];
+        const double t = (wall - eye[axis]) / direction[axis];
+        if (t >= nearest) continue;
+        nearest = t;
+        result.position = eye + direction * t;
+        result.normal = dvec3(0);
+        result.normal[axis] = high ? -1 : 1;
+    }
+    result.onLight = result.normal.z < 0 && std::abs(result.position.x) <= squareLightRoom::kLight.maxs.x &&
+                     std::abs(result.position.y) <= squareLightRoom::kLight.maxs.y;
+    return result;
+}
+
+/// Is everything within two pixels the same wall and no light? The room has no shadows: its edges are all there is.
+bool isInsideOneWall(int x, int y) {
+    const dvec3 normal = findRoomPoint(x + 0.5, y + 0.5).normal;
+    for (int dy = -2; dy <= 2; ++dy)
+        for (int dx = -2; dx <= 2; ++dx) {
+            const RoomPoint point = findRoomPoint(x + 0.5 + dx, y + 0.5 + dy);
+            if (point.normal != normal || point.onLight) return false;
+        }
+    return true;
+}
+
+struct Comparison {
+    size_t pixels = 0, beyond = 0;
+    double worst = 0, worstError = 0; ///< relative
+    double mean = 0, meanError = 0;
+};
+
+Comparison compareWithClosedForm(const MeasuredPicture& picture) {
+    Comparison result;
+    double got = 0, expected = 0, variance = 0;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            if (!isInsideOneWall(x, y)) continue;
+            const auto p = static_cast<size_t>(y * kWidth + x);
+            const RoomPoint point = findRoomPoint(x + 0.5, y + 0.5);
+            const double closed =
+                kTestWallAlbedo * squareLightRoom::computeIrradiance(point.position, point.normal) / 63.75;
+            const double difference = std::abs(picture.mean[p].r - closed), error = std::sqrt(picture.variance[p].r);
+            ++result.pixels;
+            if (difference > kTolerance * closed + kErrors * error) ++result.beyond;
+            got += picture.mean[p].r;
+            expected += closed;
+            variance += picture.variance[p].r;
+            if (closed <= 0) continue;
+            result.worst = std::max(result.worst, difference / closed);
+            result.worstError = std::max(result.worstError, error / closed);
+        }
+    result.mean = got / expected - 1;
+    result.meanError = std::sqrt(variance) / expected;
+    return result;
+}
+
+MeasuredPicture measureRoom(FileSource& files, const char* backend) {
+    TraceHarness harness(files, Q3RT_BUILD_DIR "/renderer_rt_x86_64.so", kWidth, kHeight);
+    prepareHarness(harness, squareLightRoom::kName, {{"rt_backend", backend}, {"rt_numRandomDL", "64"}});
+    return measurePicture(harness, kCamera, 8, 16);
+}
+
+TEST(SquareLightRoom, EveryPixelIsTheClosedFormOnEveryBackEnd) {
+    TestGame game;
+    std::optional<MeasuredPicture> first;
+    for (const char* backend : {"compute", "query", "pipeline"}) {
+        const MeasuredPicture picture = measureRoom(game, backend);
+        ASSERT_EQ(picture.width, kWidth);
+        const Comparison got = compareWithClosedForm(picture);
+        std::printf("%s: %zu pixels, worst %.2f %% (standard errors up to %.2f %%), mean %+.4f %% +- %.4f %%\n",
+                    backend, got.pixels, 100 * got.worst, 100 * got.worstError, 100 * got.mean, 100 * got.meanError);
+        EXPECT_GT(got.pixels, size_t{kWidth * kHeight / 2});
+        EXPECT_EQ(got.beyond, 0u) << backend;
+        EXPECT_LT(std::abs(got.mean), kMeanTolerance) << backend;
+        EXPECT_LT(got.worstError, kTolerance) << "too few samples to say anything";
+        if (!first) first = picture;
+        // The same numbers, the same points but for rounding: where two back ends differ, they differ by single rays.
+        double largest = 0;
+        for (size_t p = 0; p < picture.mean.size(); ++p)
+            largest = std::max(largest, std::abs(picture.mean[p].r - first->mean[p].r));
+        std::printf("%s: differs from the first back end by up to %.1e\n", backend, largest);
+        EXPECT_LT(largest, 1e-4) << backend;
+    }
+}
+
+} // namespace
+} // namespace q3rt::test
