@@ -1,0 +1,116 @@
+// The program's sweep of 3 points at 64x48 on a map of our own, and its going on after a cut.
+
+#include <algorithm>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/run_program.hpp"
+#include "host/file_bytes.hpp"
+
+namespace q3rt::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string readText(const fs::path& path) {
+    const std::vector<std::byte> bytes = readFileBytes(path);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::vector<std::string> sweepArguments(const fs::path& folder) {
+    return {"trade",
+            "--map",
+            "room_square_light",
+            "--basepath",
+            Q3RT_BUILD_DIR,
+            "--game",
+            "baseq3-test",
+            "--at",
+            "spawn:0..1",
+            "--size",
+            "64x48",
+            "--axis",
+            "rt_numRandomDL=1,4,0",
+            "--set",
+            "rt_taa=0",
+            "--warmup",
+            "1",
+            "--count",
+            "3",
+            "--reference-frames",
+            "32",
+            "--out",
+            (folder / "sweep.jsonl").string(),
+            "--svg",
+            (folder / "sweep.svg").string()};
+}
+
+size_t countLines(const std::string& text) { return static_cast<size_t>(std::count(text.begin(), text.end(), '\n')); }
+
+} // namespace
+
+TEST(TradeCommand, MeasuresThreePointsAndGoesOnAfterACut) {
+    const fs::path folder = makeScratchFolder("sweep");
+    const std::vector<std::string> environment = {"XDG_CACHE_HOME=" + (folder / "cache").string()};
+    const ProgramResult first = runQ3rt(sweepArguments(folder), environment);
+    if (first.errors.find("no Vulkan driver") != std::string::npos) GTEST_SKIP() << "no Vulkan device";
+    ASSERT_EQ(first.exitCode, 0) << first.errors;
+    EXPECT_NE(first.output.find("all lights"), std::string::npos) << first.output;
+    EXPECT_NE(readText(folder / "sweep.svg").find("</svg>"), std::string::npos);
+    const std::string lines = readText(folder / "sweep.jsonl");
+    ASSERT_EQ(countLines(lines), 3u);
+    for (size_t start = 0; start < lines.size(); start = lines.find('\n', start) + 1) {
+        const auto json = nlohmann::json::parse(lines.substr(start, lines.find('\n', start) - start));
+        EXPECT_GT(json["wall_ms"]["median"], 0.0);
+        EXPECT_GT(json["ssim"]["value"], 0.5);
+        EXPECT_LE(json["ssim"]["low"], json["ssim"]["high"]);
+        EXPECT_EQ(json["views"].size(), 2u);
+        EXPECT_EQ(json["frames"], 6);
+        EXPECT_FALSE(json["passes"].empty());
+        EXPECT_NE(json["command"].get<std::string>().find("--axis"), std::string::npos);
+    }
+    size_t references = 0;
+    for (const auto& entry : fs::directory_iterator(folder / "cache/q3rt/references"))
+        references += entry.path().extension() == ".png";
+    EXPECT_EQ(references, 2u);
+
+    // The last line half gone: one point is measured again, the others stay byte for byte.
+    const size_t twoLines = lines.rfind('\n', lines.size() - 2) + 1;
+    fs::resize_file(folder / "sweep.jsonl", twoLines + 100);
+    const ProgramResult second = runQ3rt(sweepArguments(folder), environment);
+    ASSERT_EQ(second.exitCode, 0) << second.errors;
+    EXPECT_NE(second.errors.find("2 of 3 points are measured already"), std::string::npos) << second.errors;
+    EXPECT_EQ(second.errors.find("reference frame"), std::string::npos) << "references come from the cache";
+    const std::string again = readText(folder / "sweep.jsonl");
+    EXPECT_EQ(countLines(again), 3u);
+    EXPECT_EQ(again.substr(0, twoLines), lines.substr(0, twoLines));
+}
+
+TEST(TradeCommand, BadArgumentsAreOneLine) {
+    const std::string out = (makeScratchFolder("bad") / "x.jsonl").string();
+    const std::vector<std::string> room = {"trade",      "--out",        out,      "--map",      "room_square_light",
+                                           "--basepath", Q3RT_BUILD_DIR, "--game", "baseq3-test"};
+    const auto run = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), room.begin(), room.end());
+        return runQ3rt(more);
+    };
+    ProgramResult result = runQ3rt({"trade", "--out", out});
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_TRUE(result.saysInOneLine("--map")) << result.errors;
+    result = run({"--shard", "2/2"});
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_TRUE(result.saysInOneLine("2/2")) << result.errors;
+    result = run({"--axis", "rt_taa"});
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_TRUE(result.saysInOneLine("CVAR=V1,V2")) << result.errors;
+    result = run({"--at", "spawn:99"});
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_TRUE(result.saysInOneLine("spawn points")) << result.errors;
+    result = runQ3rt({"trade", "--out", out, "--map", "no_such_map"});
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_TRUE(result.saysInOneLine("no_such_map") || result.saysInOneLine("pk3")) << result.errors;
+}
+
+} // namespace q3rt::test
