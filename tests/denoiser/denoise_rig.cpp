@@ -1,0 +1,141 @@
+#include "denoise_rig.hpp"
+
+#include <cstring>
+
+#include "frame/frame_graph.hpp"
+#include "gpu/readback.hpp"
+#include "shader_text.hpp"
+
+namespace q3rt::test {
+
+namespace {
+
+template <typename T>
+std::vector<T> readItems(Device& device, const Buffer& buffer) {
+    const std::vector<std::byte> bytes = readBuffer(device, buffer);
+    std::vector<T> items(bytes.size() / sizeof(T));
+    std::memcpy(items.data(), bytes.data(), items.size() * sizeof(T));
+    return items;
+}
+
+} // namespace
+
+DenoiseRig::DenoiseRig(Device& device)
+    : m_device(device)
+    , m_ring(device)
+    , m_executor(device)
+    , m_uploader(device)
+    , m_pipelines(device)
+    , m_buffers(device, {{0, 0}, kRigExtent}) {}
+
+RtFrame DenoiseRig::describeCamera(const vec3& eye) const {
+    RtFrame out{};
+    const float tanX = 1.0f, tanY = tanX * kRigExtent.height / kRigExtent.width;
+    const vec3 forward = glm::normalize(vec3(1, 0, -0.3f)), left(0, 1, 0), up = glm::cross(forward, left);
+    out.eye = eye;
+    out.forward = out.forwardUnit = forward;
+    out.left = left * tanX;
+    out.up = up * tanY;
+    return out;
+}
+
+std::vector<RtPixel> DenoiseRig::findSurfaces(const RtFrame& camera) const {
+    std::vector<RtPixel> pixels;
+    for (uint32_t y = 0; y < kRigExtent.height; ++y)
+        for (uint32_t x = 0; x < kRigExtent.width; ++x) {
+            const vec2 place((static_cast<float>(x) + 0.5f) / kRigExtent.width,
+                             (static_cast<float>(y) + 0.5f) / kRigExtent.height);
+            const vec3 direction = shader::cameraDirection(camera.forward, camera.left, camera.up, place);
+            const float toFloor = direction.z < 0 ? -camera.eye.z / direction.z : 1e9f;
+            const float toWall = direction.x > 0 ? (200 - camera.eye.x) / direction.x : 1e9f;
+            RtPixel& pixel = pixels.emplace_back();
+            pixel.distance = std::min(toFloor, toWall);
+            pixel.position = camera.eye + direction * pixel.distance;
+            pixel.normal = pixel.geometricNormal = toFloor < toWall ? vec3(0, 0, 1) : vec3(-1, 0, 0);
+            pixel.lit = pixel.position.z <= 150 ? 1 : 0;
+            pixel.albedo = vec3(1);
+            pixel.keyPixel = x | y << 16;
+            pixel.keyFrame = m_number;
+        }
+    return pixels;
+}
+
+void DenoiseRig::run(const std::function<void(FrameGraph& graph)>& addPasses) {
+    FrameGraph graph;
+    m_ring.begin();
+    addPasses(graph);
+    m_executor.run(graph, m_ring);
+    m_ring.submit();
+    m_device.waitIdle();
+}
+
+template <typename T>
+Buffer DenoiseRig::makeTable(const std::vector<T>& items) {
+    Buffer buffer(m_device, {.size = items.size() * sizeof(T),
+                             .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                             .domain = MemoryDomain::Upload,
+                             .name = "rig table"});
+    std::memcpy(buffer.mapped(), items.data(), items.size() * sizeof(T));
+    return buffer;
+}
+
+RigFrame DenoiseRig::draw(const vec3& eye, const LightFunction& light) {
+    ++m_number;
+    m_buffers.turnHistory(m_device, true, false);
+    const RtFrame camera = describeCamera(eye);
+    EntityPlace world;
+    world.moves = false;
+    m_buffers.motion.advance({.camera = cameraOf(camera),
+                              .timeMs = static_cast<int>(m_number),
+                              .sampleFrame = m_number,
+                              .pictureNumber = m_number,
+                              .settingsKey = {},
+                              .entities = {world}});
+    const Buffer toCurrent = makeTable(m_buffers.motion.toCurrent());
+    const Buffer toPrevious = makeTable(m_buffers.motion.toPrevious());
+    const Buffer table = makeTable(std::vector{describeDenoise(m_buffers, toCurrent.address(), toPrevious.address())});
+    const DenoiseWork work{m_pipelines, table.address(), kRigExtent, m_buffers.motion.isContinuous()};
+
+    m_uploader.upload(m_buffers.pixels, std::span<const RtPixel>(findSurfaces(camera)));
+    m_uploader.flush();
+    run([&](FrameGraph& graph) {
+        ViewResources resources;
+        resources.pixels = graph.importBuffer("pixels", m_buffers.pixels);
+        DenoiseResources denoise = importDenoise(graph, *m_buffers.denoise);
+        addDenoiseProjection(graph, resources, denoise, work);
+    });
+
+    RigFrame out;
+    out.pixels = readItems<RtPixel>(m_device, m_buffers.pixels);
+    std::vector<vec4> irradiance;
+    for (const RtPixel& pixel : out.pixels) {
+        out.carriedCount += pixel.keyFrame != m_number ? 1 : 0;
+        out.traced.push_back(pixel.lit ? light(pixel) : vec3(1));
+        irradiance.emplace_back(out.traced.back(), 1.0f);
+    }
+    m_uploader.upload(m_buffers.irradiance, std::span<const vec4>(irradiance));
+    m_uploader.flush();
+    run([&](FrameGraph& graph) {
+        ViewResources resources;
+        resources.pixels = graph.importBuffer("pixels", m_buffers.pixels);
+        resources.irradiance = graph.importBuffer("irradiance", m_buffers.irradiance);
+        DenoiseResources denoise = importDenoise(graph, *m_buffers.denoise);
+        addDenoise(graph, resources, denoise, work);
+    });
+    for (const vec4& shown : readItems<vec4>(m_device, m_buffers.denoise->result()))
+        out.shown.emplace_back(shown);
+    return out;
+}
+
+double meanLuminance(const RigFrame& frame, const std::vector<vec3>& light) {
+    double sum = 0;
+    size_t count = 0;
+    for (size_t i = 0; i < light.size(); ++i) {
+        if (frame.pixels[i].lit == 0) continue;
+        sum += shader::luminanceOf(light[i]);
+        ++count;
+    }
+    return sum / static_cast<double>(count);
+}
+
+} // namespace q3rt::test

@@ -1,0 +1,112 @@
+// The module with denoiser and temporal anti-aliasing on, in the headless engine, in the room with the square light.
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <map>
+
+#include "baseq3-test/test_maps.hpp"
+#include "tests/tracer/trace_harness.hpp"
+
+namespace q3rt {
+namespace {
+
+using test::Camera;
+using test::TraceHarness;
+
+class TestGame : public FileSource {
+  public:
+    TestGame() {
+        for (auto& [name, bytes] : buildTestGameFiles())
+            m_files[name] = std::move(bytes);
+    }
+    std::optional<std::vector<std::byte>> read(std::string_view name) override {
+        const auto found = m_files.find(std::string(name));
+        if (found == m_files.end()) return std::nullopt;
+        return found->second;
+    }
+    std::vector<std::string> list(std::string_view directory, std::string_view extension) override {
+        const std::string prefix = std::string(directory) + "/";
+        std::vector<std::string> names;
+        for (const auto& [name, bytes] : m_files)
+            if (name.starts_with(prefix) && name.ends_with(extension)) names.push_back(name.substr(prefix.size()));
+        return names;
+    }
+
+  private:
+    std::map<std::string, std::vector<std::byte>> m_files;
+};
+
+constexpr int kWidth = 48, kHeight = 36; ///< pixels
+const Camera kCamera{.eye = {-200, -180, 100}, .pitch = 10, .yaw = 40};
+const Camera kFarCamera{.eye = {220, 190, 40}, .pitch = 0, .yaw = 200};
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+class DenoisedRoomTest : public testing::Test {
+  protected:
+    /// Radiance of the last of these frames. A module at a time: two would share the loaded library.
+    FloatImage render(const Settings& settings, const std::vector<Camera>& frames) {
+        TraceHarness harness(m_game, Q3RT_BUILD_DIR "/renderer_rt_x86_64.so", kWidth, kHeight);
+        for (const auto& [name, value] : settings)
+            harness.set(name, value);
+        harness.loadMap(std::string("maps/") + squareLightRoom::kName + ".bsp");
+        for (size_t i = 0; i + 1 < frames.size(); ++i)
+            harness.draw(frames[i], 1);
+        return harness.radiance(frames.back(), 1);
+    }
+    TestGame m_game;
+};
+
+double meanOf(const FloatImage& image) {
+    double sum = 0;
+    for (const float value : image.rgb)
+        sum += value;
+    return sum / static_cast<double>(image.rgb.size());
+}
+
+double errorOf(const FloatImage& image, const FloatImage& reference) {
+    double sum = 0;
+    for (size_t i = 0; i < image.rgb.size(); ++i)
+        sum += std::pow(image.rgb[i] - reference.rgb[i], 2);
+    return std::sqrt(sum / static_cast<double>(image.rgb.size()));
+}
+
+TEST_F(DenoisedRoomTest, ComesCloseToTheReferenceInFewFrames) {
+    const FloatImage reference = render({{"rt_accumulate", "1"}}, std::vector<Camera>(400, kCamera));
+    const double raw = errorOf(render({{"rt_denoiser", "0"}, {"rt_taa", "0"}}, {kCamera}), reference);
+    const FloatImage filtered = render({}, std::vector<Camera>(16, kCamera));
+    EXPECT_LT(errorOf(filtered, reference), raw / 3) << "the room's light changes within a few of these large pixels";
+    EXPECT_NEAR(meanOf(filtered) / meanOf(reference), 1, 0.01);
+    std::printf("error of one sample %.4f, denoised after 16 frames %.4f, energy %+.2f %%\n", raw,
+                errorOf(filtered, reference), 100 * (meanOf(filtered) / meanOf(reference) - 1));
+}
+
+TEST_F(DenoisedRoomTest, FixedSeedRepeatsBitForBit) {
+    std::vector<Camera> path;
+    for (int i = 0; i < 8; ++i) {
+        Camera& camera = path.emplace_back(kCamera);
+        camera.eye.x += static_cast<float>(i) * 5;
+        camera.yaw += static_cast<float>(i);
+    }
+    const Settings settings{{"rt_antialiasing", "1"}};
+    EXPECT_EQ(render(settings, path).rgb, render(settings, path).rgb);
+}
+
+TEST_F(DenoisedRoomTest, ACutLeavesNothingOfTheOldView) {
+    std::vector<Camera> steady(8, kCamera);
+    std::vector<Camera> moved(5, Camera{.eye = {-100, 60, 200}, .pitch = 40, .yaw = 10});
+    moved.insert(moved.end(), 3, kCamera);
+    steady.push_back(kFarCamera);
+    moved.push_back(kFarCamera);
+    EXPECT_EQ(render({}, steady).rgb, render({}, moved).rgb);
+}
+
+TEST_F(DenoisedRoomTest, WhatIsOffLeavesNoTrace) {
+    // The first sample of a mean is the plain sample.
+    const FloatImage plain = render({{"rt_denoiser", "0"}, {"rt_taa", "0"}}, {kCamera});
+    EXPECT_EQ(plain.rgb, render({{"rt_accumulate", "1"}}, {kCamera}).rgb);
+    EXPECT_NE(plain.rgb, render({}, {kCamera}).rgb);
+}
+
+} // namespace
+} // namespace q3rt
