@@ -1,6 +1,7 @@
 // Arithmetic of temporal anti-aliasing. Pure functions.
 // Salvi 2016, "An Excursion in Temporal Supersampling" (variance clipping); Karis 2014, "High Quality Temporal
-// Supersampling" (clipping toward the mean, YCoCg, weights that tame bright samples).
+// Supersampling" (clipping toward the mean, YCoCg). Means are of radiance itself, not of tone-mapped values: the
+// denoiser has tamed bright samples already, and the result tends to the reference.
 #ifndef Q3RT_LIB_TAA_GLSL
 #define Q3RT_LIB_TAA_GLSL
 
@@ -14,21 +15,6 @@ vec3 rgbFromYCoCg(vec3 c)
 {
     float base = c.x - c.z;
     return vec3(base + c.y, c.x + c.z, base - c.y);
-}
-
-// Radiance [0, inf) to [0, 1) and back, hue kept: a mean in this space is not ruled by one bright sample.
-vec3 compressRange(vec3 c) { return c / (1.0f + max(c.x, max(c.y, c.z))); }
-// Of values that rounding or a filter's negative lobes have put outside, the nearest that has an inverse is taken.
-vec3 expandRange(vec3 c)
-{
-    const float most = 0.9999f; // radiance 9,999
-    vec3 inside = max(c, vec3(0.0f));
-    float largest = max(inside.x, max(inside.y, inside.z));
-    if (largest > most) {
-        inside *= most / largest;
-        largest = most;
-    }
-    return inside / (1.0f - largest);
 }
 
 // Half the size of the box of plausible colours, in standard deviations of the neighbourhood.

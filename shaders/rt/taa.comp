@@ -65,7 +65,7 @@ Shift findShift(ivec2 pixel)
     return Shift((there.xy - here.xy) * vec2(taa.size), kind != kMotionUnknown && here.z > 0.0 && there.z > 0.0);
 }
 
-// Colour in compressed range and frames of the previous result at a place between texel centres.
+// Radiance and frames of the previous result at a place between texel centres.
 vec4 sampleHistory(vec2 place)
 {
     ivec2 base = ivec2(floor(place));
@@ -77,10 +77,10 @@ vec4 sampleHistory(vec2 place)
             float weight = wx[x] * wy[y];
             if (weight == 0.0)
                 continue;
-            vec4 texel = ColorTable(taa.previousHistory).at[indexOf(base + ivec2(x, y) - 1)];
-            sum += weight * vec4(compressRange(texel.rgb), texel.w);
+            sum += weight * ColorTable(taa.previousHistory).at[indexOf(base + ivec2(x, y) - 1)];
         }
-    return vec4(sum.rgb, max(sum.w, 1.0));
+    // The filter's negative lobes must not make darkness negative.
+    return max(sum, vec4(vec3(0.0), 1.0));
 }
 
 // What the pixel itself shows is always plausible: a still picture without noise passes unchanged.
@@ -89,13 +89,13 @@ vec3 clipToNeighbours(ivec2 pixel, vec3 color, vec3 own)
     vec3 first = vec3(0.0), second = vec3(0.0);
     for (int i = 0; i < 9; ++i) {
         ivec2 tap = pixel + ivec2(i % 3 - 1, i / 3 - 1);
-        vec3 c = yCoCgFromRgb(compressRange(ColorTable(taa.radiance).at[indexOf(tap)].rgb));
+        vec3 c = yCoCgFromRgb(ColorTable(taa.picture).at[indexOf(tap)].rgb);
         first += c / 9.0;
         second += c * c / 9.0;
     }
     vec3 deviation = sqrt(max(second - first * first, vec3(0.0)));
     vec3 extent = max(deviation * kClipSigmas, abs(yCoCgFromRgb(own) - first));
-    return rgbFromYCoCg(clipToBox(yCoCgFromRgb(color), first, extent));
+    return max(rgbFromYCoCg(clipToBox(yCoCgFromRgb(color), first, extent)), vec3(0.0));
 }
 
 void main()
@@ -103,7 +103,7 @@ void main()
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, ivec2(taa.size))))
         return;
-    vec3 radiance = ColorTable(taa.radiance).at[indexOf(pixel)].rgb;
+    vec3 radiance = ColorTable(taa.picture).at[indexOf(pixel)].rgb;
     if (any(isnan(radiance)) || any(isinf(radiance)))
         radiance = vec3(0.0);
     vec4 result = vec4(radiance, 1.0);
@@ -113,9 +113,7 @@ void main()
     if (taa.hasHistory != 0u && shift.known && inside) {
         vec4 history = sampleHistory(place);
         float frames = min(history.w + 1.0, kTaaLimit);
-        vec3 own = compressRange(radiance);
-        vec3 color = mix(clipToNeighbours(pixel, history.rgb, own), own, 1.0 / frames);
-        result = vec4(expandRange(color), frames);
+        result = vec4(mix(clipToNeighbours(pixel, history.rgb, radiance), radiance, 1.0 / frames), frames);
     }
     ColorTable(taa.history).at[indexOf(pixel)] = result;
 }

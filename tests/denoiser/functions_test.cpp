@@ -120,20 +120,14 @@ TEST(Blend, IsAMeanUntilSomethingChanges) {
     EXPECT_FLOAT_EQ(shader::varianceOfMean({0.5f, 0.5f}, 5), 0.0625f);
 }
 
-TEST(ColorSpace, YCoCgAndCompressionComeBack) {
+TEST(ColorSpace, YCoCgComesBack) {
     Random random;
     for (int i = 0; i < kCases; ++i) {
         const vec3 c(random.between(0, 8), random.between(0, 8), random.between(0, 8));
         const vec3 back = shader::rgbFromYCoCg(shader::yCoCgFromRgb(c));
-        const vec3 expanded = shader::expandRange(shader::compressRange(c));
-        for (int k = 0; k < 3; ++k) {
+        for (int k = 0; k < 3; ++k)
             ASSERT_NEAR(back[k], c[k], 4e-6f);
-            ASSERT_NEAR(expanded[k], c[k], 2e-5f);
-        }
     }
-    const vec3 outside = shader::expandRange({-0.1f, 1.5f, 0.5f});
-    EXPECT_EQ(outside.x, 0);
-    EXPECT_TRUE(std::isfinite(outside.y));
 }
 
 TEST(VarianceClipping, MovesTowardTheMeanOnlyAsFarAsNeeded) {
