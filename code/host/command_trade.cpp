@@ -145,6 +145,17 @@ void measureMissing(TradeSession& session, TradeMeter& meter, TradeFile& file, c
     }
 }
 
+std::string makeTitle(const TradeSource& source, const std::vector<TradeResult>& results, const std::string& device) {
+    const size_t views = source.viewNames().size();
+    std::string title = formatText("%s, %zu view%s", source.name().c_str(), views, views == 1 ? "" : "s");
+    const PictureSize& size = results[0].point.size;
+    const bool sameSize = std::all_of(results.begin(), results.end(), [&](const TradeResult& result) {
+        return result.point.size.width == size.width && result.point.size.height == size.height;
+    });
+    if (sameSize) title += formatText(", %dx%d", size.width, size.height);
+    return title + ", " + device;
+}
+
 void report(const TradeArguments& a, const std::string& title, const std::vector<TradePoint>& points,
             std::vector<TradeResult> results) {
     std::stable_sort(results.begin(), results.end(),
@@ -185,9 +196,7 @@ void runTrade(TradeArguments a) {
     for (const TradePoint& point : points)
         if (const TradeResult* result = file.find(meter.keyOf(point), device)) results.push_back(*result);
     if (results.empty()) throw UsageError("--shard " + a.shard + " holds no point: use fewer parts");
-    const std::string title = formatText("%s, %zu view%s, %dx%d, %s", source->name().c_str(),
-                                         source->viewNames().size(), source->viewNames().size() == 1 ? "" : "s",
-                                         results[0].point.size.width, results[0].point.size.height, device.c_str());
+    const std::string title = makeTitle(*source, results, device);
     report(a, title, points, std::move(results));
 }
 

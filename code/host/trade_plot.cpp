@@ -11,7 +11,7 @@ namespace {
 
 // Pixels. The list of points stands right of the plot; a longer list makes a higher picture.
 constexpr double kPlotLeft = 84, kPlotRight = 640, kPlotTop = 60, kPlotHeight = 480, kBelowPlot = 70;
-constexpr double kListLeft = 672, kListLine = 18, kWidth = 1080;
+constexpr double kListLeft = 672, kListLine = 18, kListTimeEnd = 1000, kListErrorEnd = 1064, kWidth = 1080;
 constexpr double kFontSize = 13, kDigitWidth = 8, kMarkRadius = 4.5, kCapLength = 4;
 constexpr const char *kFrontColor = "#c0392b", *kOtherColor = "#34618e", *kGridColor = "#dddddd", *kInk = "#222222";
 
@@ -179,13 +179,15 @@ class Plot {
     }
     std::string drawList() const {
         double y = kPlotTop + 4;
-        std::string svg = drawText(kListLeft, y, "bold: on the front    ms, 1 - SSIM", Align::Start);
+        std::string svg = drawText(kListLeft + 28, y, "bold: on the front");
+        svg += drawText(kListTimeEnd, y, "ms", Align::End) + drawText(kListErrorEnd, y, "1 - SSIM", Align::End);
         for (size_t i = 0; i < m_results.size(); ++i) {
             y += kListLine;
-            svg += drawText(kListLeft + 20, y, formatText("%zu", i + 1), Align::End, isOnFront(i));
-            svg += drawText(kListLeft + 28, y,
-                            m_labels[i] + formatText("   %.3g ms, %.3g", m_costs[i].ms, m_costs[i].error), Align::Start,
-                            isOnFront(i));
+            const bool bold = isOnFront(i);
+            svg += drawText(kListLeft + 20, y, formatText("%zu", i + 1), Align::End, bold);
+            svg += drawText(kListLeft + 28, y, m_labels[i], Align::Start, bold);
+            svg += drawText(kListTimeEnd, y, formatText("%.3g", m_costs[i].ms), Align::End, bold);
+            svg += drawText(kListErrorEnd, y, formatText("%.3g", m_costs[i].error), Align::End, bold);
         }
         return svg;
     }
