@@ -8,6 +8,8 @@
 
 #include "cli/run_program.hpp"
 #include "host/file_bytes.hpp"
+#include "host/still_scene.hpp"
+#include "trace/recording_writer.hpp"
 
 namespace q3rt::test {
 namespace {
@@ -45,6 +47,23 @@ std::vector<std::string> sweepArguments(const fs::path& folder) {
             (folder / "sweep.jsonl").string(),
             "--svg",
             (folder / "sweep.svg").string()};
+}
+
+/// `frames` world frames of an eye that turns a degree a frame in the room.
+void recordRoom(const fs::path& path, int frames) {
+    RecordingWriter writer(path);
+    writer.setRenderer("made by a test");
+    writer.add(event::BeginRegistration{64, 48, 4.0f / 3});
+    writer.add(event::LoadWorld{"maps/room_square_light.bsp"});
+    writer.add(event::EndRegistration{});
+    for (int i = 0; i < frames; ++i) {
+        writer.add(event::Clock{100 + 20 * i});
+        writer.add(event::BeginFrame{0});
+        writer.add(event::ClearScene{});
+        writer.add(event::RenderScene{makeView({{0, 0, 64}, 0, static_cast<float>(i)}, 90, 64, 48, 100 + 20 * i)});
+        writer.add(event::EndFrame{});
+    }
+    writer.finish();
 }
 
 size_t countLines(const std::string& text) { return static_cast<size_t>(std::count(text.begin(), text.end(), '\n')); }
@@ -86,6 +105,47 @@ TEST(TradeCommand, MeasuresThreePointsAndGoesOnAfterACut) {
     const std::string again = readText(folder / "sweep.jsonl");
     EXPECT_EQ(countLines(again), 3u);
     EXPECT_EQ(again.substr(0, twoLines), lines.substr(0, twoLines));
+}
+
+TEST(TradeCommand, MeasuresChosenFramesOfARecording) {
+    const fs::path folder = makeScratchFolder("recording");
+    recordRoom(folder / "room.q3t", 12);
+    const auto run = [&](const std::string& frames) {
+        return runQ3rt({"trade",
+                        (folder / "room.q3t").string(),
+                        "--frames",
+                        frames,
+                        "--basepath",
+                        Q3RT_BUILD_DIR,
+                        "--game",
+                        "baseq3-test",
+                        "--axis",
+                        "rt_denoiser=0,1",
+                        "--size",
+                        "64x48",
+                        "--warmup",
+                        "3",
+                        "--count",
+                        "2",
+                        "--reference-frames",
+                        "16",
+                        "--out",
+                        (folder / "sweep.jsonl").string()},
+                       {"XDG_CACHE_HOME=" + (folder / "cache").string()});
+    };
+    ProgramResult result = run("1,9");
+    if (result.errors.find("no Vulkan driver") != std::string::npos) GTEST_SKIP() << "no Vulkan device";
+    ASSERT_EQ(result.exitCode, 0) << result.errors;
+    const std::string lines = readText(folder / "sweep.jsonl");
+    ASSERT_EQ(countLines(lines), 2u);
+    const auto json = nlohmann::json::parse(lines.substr(0, lines.find('\n')));
+    EXPECT_EQ(json["views"][0]["view"], "frame:1");
+    EXPECT_EQ(json["views"][1]["view"], "frame:9");
+    EXPECT_GT(json["views"][0]["ssim"], 0.5);
+    EXPECT_GT(json["views"][1]["ssim"], 0.5);
+    result = run("12");
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_TRUE(result.saysInOneLine("world frames 0 to 11")) << result.errors;
 }
 
 TEST(TradeCommand, BadArgumentsAreOneLine) {
