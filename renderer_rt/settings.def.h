@@ -5,6 +5,7 @@ SETTING(rt_cullLights, Int, 1, 0, 1, A, "", "0 tries all lights, 1 those potenti
 SETTING(rt_numRandomDL, Int, 1, 0, 64, A, "lights", "lights chosen at random for each pixel; 0 all of them")
 SETTING(rt_lightCandidates, Int, 16, 1, 4096, A, "lights", "triangle lights weighed for each choice; a longer list is sampled")
 SETTING(rt_softshadows, Int, 1, 0, 1, A, "", "suns and dynamic lights have a size")
+SETTING(rt_reflectionDepth, Int, 5, 1, 16, A, "", "mirrors, portals and reflections one after the other")
 SETTING(rt_ambient, Float, 1.0f, 0, 4, A, "factor", "of the light grid, for light that no extracted light explains")
 SETTING(rt_antialiasing, Int, 0, 0, 1, A, "", "rays at changing places of a pixel; smooth with rt_taa or rt_accumulate")
 SETTING(rt_accumulate, Int, 0, 0, 1, A, "", "mean of all frames while the view stays the same")

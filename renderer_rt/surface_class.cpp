@@ -18,6 +18,9 @@ std::optional<SurfaceClass> classifySurface(const Material& material) {
     if (material.stages.empty()) return std::nullopt;
     // A decal lies in the plane of another surface: the drawing order decides there, as among layers.
     if (material.polygonOffset) return SurfaceClass::Layer;
+    // Drawn before everything else, a portal hides what lies behind it, though its stages are blended.
+    if (material.isPortal && material.cull == CullMode::Front) return SurfaceClass::Solid;
+    if (material.isPortal && material.cull == CullMode::None) return SurfaceClass::SolidTwoSided;
     const auto covers = [](const Stage& s) { return !s.blended && s.depthFunc != DepthFunc::Equal; };
     const auto& stages = material.stages;
     const bool covered = std::any_of(stages.begin(), stages.end(),
@@ -28,6 +31,21 @@ std::optional<SurfaceClass> classifySurface(const Material& material) {
     return SurfaceClass::Layer;
 }
 
+namespace {
+
+/// Translucent, and the script says what it is: the boundary of water or slime, or a pane (surfaceparm trans) with a
+/// fake reflection, which the traced one replaces.
+uint32_t reflectionFlag(const Material& material) {
+    using namespace surfaceParm;
+    const uint32_t contents = material.contentFlags;
+    if ((contents & (kContentsWater | kContentsSlime)) != 0 && (contents & kContentsLava) == 0) return kSurfaceWater;
+    const bool fakes = std::any_of(material.stages.begin(), material.stages.end(),
+                                   [](const Stage& s) { return s.unit[0].texCoordGen == TexCoordGen::Environment; });
+    return fakes && (contents & kContentsTranslucent) != 0 ? kSurfaceGlass : 0;
+}
+
+} // namespace
+
 uint32_t surfaceFlags(const Material& material, SurfaceClass surfaceClass) {
     uint32_t flags = 0;
     const bool tested = std::any_of(material.stages.begin(), material.stages.end(),
@@ -36,6 +54,7 @@ uint32_t surfaceFlags(const Material& material, SurfaceClass surfaceClass) {
     if (material.cull == CullMode::Front) flags |= kSurfaceCullBack;
     if (material.cull == CullMode::Back) flags |= kSurfaceCullFront;
     if (surfaceClass == SurfaceClass::Sky) flags |= kSurfaceSky;
+    if (surfaceClass == SurfaceClass::Layer && !material.polygonOffset) flags |= reflectionFlag(material);
     // The engine's fog pass: opaque materials, and the faces of fog volumes themselves.
     if (material.sort <= kSortOpaque || material.isFog) flags |= kSurfaceFogged;
     return flags;

@@ -127,6 +127,7 @@ void TraceRenderer::describeSettings(RtFrame& out) const {
     out.lightsPerPixel = static_cast<uint32_t>(m_settings.rt_numRandomDL);
     out.candidatesPerChoice = static_cast<uint32_t>(m_settings.rt_lightCandidates);
     out.ambient = m_settings.rt_ambient;
+    out.reflectionDepth = static_cast<uint32_t>(m_settings.rt_reflectionDepth);
     out.cullLights = static_cast<uint32_t>(m_settings.rt_cullLights);
     if (m_settings.rt_illumination) out.flags |= kFrameIllumination;
     if (m_settings.rt_softshadows) out.flags |= kFrameSoftShadows;
@@ -161,7 +162,8 @@ uint32_t TraceRenderer::countSample(const FrameCommands& frame, const SceneView&
 const TracedView& TraceRenderer::prepareView(const FrameCommands& frame, const SceneView& scene, ViewBuffers& buffers) {
     buildViewGeometry(frame, scene, scene.view, world(), models(), materials(), viewGeometrySettings(), m_geometry);
     const std::span<const SceneLight> lights(frame.lights.data() + scene.firstLight, scene.lightCount);
-    m_views.push_back(m_scene->prepare(m_geometry, lights));
+    const std::span<const SceneEntity> entities(frame.entities.data() + scene.firstEntity, scene.entityCount);
+    m_views.push_back(m_scene->prepare(m_geometry, lights, {entities, scene.timeMs}));
     TracedView& view = m_views.back();
     describeView(scene, buffers.area.extent, view.frame);
     describeSettings(view.frame);

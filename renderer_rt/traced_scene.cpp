@@ -152,9 +152,10 @@ void TracedScene::makeTrees(const ViewGeometry& geometry, TracedView& view) {
     view.frame.treeInstances = tree.instances;
 }
 
-TracedView TracedScene::prepare(const ViewGeometry& geometry, std::span<const SceneLight> lights) {
+TracedView TracedScene::prepare(const ViewGeometry& geometry, std::span<const SceneLight> lights,
+                                const PortalScene& portals) {
     TracedView view;
-    m_builder->build(m_world, m_statics.get(), geometry, m_tables);
+    m_builder->build(m_world, m_statics.get(), geometry, portals, m_tables);
     resolveDynamic(geometry, view);
     if (usesStructures(m_backend))
         makeInstances(geometry, view);
@@ -165,6 +166,7 @@ TracedView TracedScene::prepare(const ViewGeometry& geometry, std::span<const Sc
     frame.surfaces = send(m_tables.surfaces);
     frame.entities = send(m_tables.entities);
     frame.skies = send(m_tables.skies);
+    frame.portals = send(m_tables.portals);
     frame.skyCount = static_cast<uint32_t>(m_tables.skies.size());
     frame.stages = send(m_stages->states());
     sendFogs(frame);

@@ -32,6 +32,7 @@ void ViewTables::clear() {
     parts.clear();
     sources.clear();
     skies.clear();
+    portals.clear();
     hasLayers = hasNear = false;
     layerOrderCount = 0;
 }
@@ -104,6 +105,8 @@ void ViewTableBuilder::addStaticParts(const World& world, const StaticGeometry& 
         for (const uint32_t number : part.surfaces) {
             const WorldSurface& surface = world.surfaces[number];
             out.surfaces.push_back(makeSurface(surface.material, part.surfaceClass, surface.fog, record.stage, out));
+            out.surfaces.back().portal =
+                m_portals.findStatic(world, surface, m_materials.drawn(surface.material), record);
         }
         out.instances.push_back(instance);
         out.sources.push_back({.staticPart = static_cast<int>(p),
@@ -135,7 +138,7 @@ void ViewTableBuilder::appendTriangles(const ViewGeometry& geometry, DynamicPart
     part.triangleCount = (static_cast<uint32_t>(out.indices.size()) - part.firstIndex) / 3;
 }
 
-void ViewTableBuilder::addDynamicParts(const ViewGeometry& geometry, ViewTables& out) {
+void ViewTableBuilder::addDynamicParts(const World* world, const ViewGeometry& geometry, ViewTables& out) {
     std::map<std::pair<uint32_t, SurfaceClass>, DynamicPart> groups;
     for (uint32_t s = 0; s < geometry.surfaces.size(); ++s) {
         const EntitySurface& surface = geometry.surfaces[s];
@@ -156,6 +159,8 @@ void ViewTableBuilder::addDynamicParts(const ViewGeometry& geometry, ViewTables&
         for (const uint32_t s : part.surfaces) {
             const EntitySurface& surface = geometry.surfaces[s];
             out.surfaces.push_back(makeSurface(surface.material, part.surfaceClass, surface.fog, record.stage, out));
+            out.surfaces.back().portal =
+                m_portals.findMoving(world, geometry, surface, m_materials.drawn(surface.material));
         }
         appendTriangles(geometry, part, out);
         instance.vertices = part.firstVertex * sizeof(Vertex);
@@ -185,8 +190,9 @@ void ViewTableBuilder::orderLayers(ViewTables& out) {
 }
 
 void ViewTableBuilder::build(const World* world, const StaticGeometry* statics, const ViewGeometry& geometry,
-                             ViewTables& out) {
+                             const PortalScene& portals, ViewTables& out) {
     out.clear();
+    m_portals.begin(portals);
     m_layers.clear();
     m_skies.clear();
     for (const EntityRecord& record : geometry.entities)
@@ -197,7 +203,8 @@ void ViewTableBuilder::build(const World* world, const StaticGeometry* statics, 
             if (model >= 0) addStaticParts(*world, *statics, geometry, e, model, out);
         }
     }
-    addDynamicParts(geometry, out);
+    addDynamicParts(world, geometry, out);
+    out.portals = m_portals.table();
     orderLayers(out);
 }
 

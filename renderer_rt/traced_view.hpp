@@ -5,6 +5,7 @@
 
 #include "gpu/acceleration_structure.hpp"
 #include "renderer_rt/static_geometry.hpp"
+#include "renderer_rt/view_portals.hpp"
 #include "scene/entity_geometry.hpp"
 #include "shaders/shared/rt_scene.h"
 
@@ -35,6 +36,7 @@ struct ViewTables {
     };
     std::vector<Source> sources;
     std::vector<RtSky> skies;
+    std::vector<RtPortal> portals;
     bool hasLayers = false, hasNear = false;
     uint32_t layerOrderCount = 0;
     void clear();
@@ -59,13 +61,14 @@ class ViewTableBuilder {
         : m_materials(materials)
         , m_stages(stages) {}
     /// `statics` may be null (no world). `worldTimeSeconds` is the view's shader time.
-    void build(const World* world, const StaticGeometry* statics, const ViewGeometry& geometry, ViewTables& out);
+    void build(const World* world, const StaticGeometry* statics, const ViewGeometry& geometry,
+               const PortalScene& portals, ViewTables& out);
     const MaterialLibrary& materials() const { return m_materials; }
 
   private:
     void addStaticParts(const World& world, const StaticGeometry& statics, const ViewGeometry& geometry,
                         uint32_t entity, int model, ViewTables& out);
-    void addDynamicParts(const ViewGeometry& geometry, ViewTables& out);
+    void addDynamicParts(const World* world, const ViewGeometry& geometry, ViewTables& out);
     void appendTriangles(const ViewGeometry& geometry, DynamicPart& part, ViewTables& out);
     RtSurface makeSurface(MaterialId material, SurfaceClass surfaceClass, int fog, const StageInputs& inputs,
                           ViewTables& out);
@@ -77,6 +80,7 @@ class ViewTableBuilder {
     TriangleOrderCache m_orders;
     std::vector<std::pair<uint32_t, uint32_t>> m_layers; ///< sort rank, surface table index
     std::vector<std::pair<MaterialId, uint32_t>> m_skies;
+    ViewPortals m_portals;
 };
 
 /// Who sees an entity with these renderfx flags.

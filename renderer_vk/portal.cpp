@@ -84,36 +84,47 @@ std::optional<bool> portalIsMirror(const Plane& match, std::span<const SceneEnti
     return isMirror(*entity);
 }
 
-std::optional<RasterView> makePortalView(const RasterView& view, const Plane& plane, const Plane& match,
-                                         std::span<const SceneEntity> entities) {
+std::optional<PortalFrames> findPortalFrames(const Plane& plane, const Plane& match,
+                                             std::span<const SceneEntity> entities, int timeMs) {
     const SceneEntity* entity = findPortalEntity(match, entities);
     if (!entity) return std::nullopt;
-    Orientation surface, camera;
+    PortalFrames frames;
+    frames.pvsOrigin = entity->oldOrigin;
+    frames.mirror = isMirror(*entity);
+    Orientation& surface = frames.surface;
+    Orientation& camera = frames.camera;
     surface.axis[0] = plane.normal;
     surface.axis[1] = perpendicularTo(plane.normal);
     surface.axis[2] = glm::cross(surface.axis[0], surface.axis[1]);
-    const bool mirror = isMirror(*entity);
-    if (mirror) {
+    if (frames.mirror) {
         surface.origin = camera.origin = plane.normal * plane.distance;
         camera.axis[0] = -surface.axis[0];
         camera.axis[1] = surface.axis[1];
         camera.axis[2] = surface.axis[2];
-    } else {
-        const vec3& at = entity->orientation.origin;
-        surface.origin = at - plane.normal * (glm::dot(plane.normal, at) - plane.distance);
-        camera.origin = entity->oldOrigin;
-        camera.axis[0] = -entity->orientation.axis[0];
-        camera.axis[1] = -entity->orientation.axis[1];
-        camera.axis[2] = entity->orientation.axis[2];
-        if (const float roll = rollDegrees(*entity, view.scene->timeMs); roll != 0) {
-            camera.axis[1] = rotateAbout(camera.axis[0], camera.axis[1], roll);
-            camera.axis[2] = glm::cross(camera.axis[0], camera.axis[1]);
-        }
+        return frames;
     }
+    const vec3& at = entity->orientation.origin;
+    surface.origin = at - plane.normal * (glm::dot(plane.normal, at) - plane.distance);
+    camera.origin = entity->oldOrigin;
+    camera.axis[0] = -entity->orientation.axis[0];
+    camera.axis[1] = -entity->orientation.axis[1];
+    camera.axis[2] = entity->orientation.axis[2];
+    if (const float roll = rollDegrees(*entity, timeMs); roll != 0) {
+        camera.axis[1] = rotateAbout(camera.axis[0], camera.axis[1], roll);
+        camera.axis[2] = glm::cross(camera.axis[0], camera.axis[1]);
+    }
+    return frames;
+}
+
+std::optional<RasterView> makePortalView(const RasterView& view, const Plane& plane, const Plane& match,
+                                         std::span<const SceneEntity> entities) {
+    const auto frames = findPortalFrames(plane, match, entities, view.scene->timeMs);
+    if (!frames) return std::nullopt;
+    const auto& [surface, camera, pvsOrigin, mirror] = *frames;
     RasterView out = view;
     out.portal = true;
     out.mirrored = mirror;
-    out.pvsOrigin = entity->oldOrigin;
+    out.pvsOrigin = pvsOrigin;
     out.eye.origin = camera.origin + toCamera(view.eye.origin - surface.origin, surface, camera);
     for (int i = 0; i < 3; ++i)
         out.eye.axis[i] = toCamera(view.eye.axis[i], surface, camera);

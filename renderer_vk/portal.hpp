@@ -29,6 +29,16 @@ vec3 rotateAbout(const vec3& axis, const vec3& vector, float degrees);
 /// have no range)?
 bool portalVisible(const RasterView& view, const PortalShape& shape, float rangeQu, bool isMirror);
 
+/// A portal surface and the camera behind it: what lies along an axis of `surface` is seen along that of `camera`.
+struct PortalFrames {
+    Orientation surface, camera;
+    vec3 pvsOrigin{0};
+    bool mirror = false;
+};
+/// nullopt if no portal entity belongs to the plane `match`.
+std::optional<PortalFrames> findPortalFrames(const Plane& plane, const Plane& match,
+                                             std::span<const SceneEntity> entities, int timeMs);
+
 /// The view out of the portal, or nullopt if no portal entity belongs to the plane. `match` is the plane used to find
 /// the entity (differs from `plane` on moved brush models only).
 std::optional<RasterView> makePortalView(const RasterView& view, const Plane& plane, const Plane& match,

@@ -45,14 +45,14 @@ bool acceptHit(uint instance, uint triangle, vec2 barycentric, float t, vec3 dir
 // same distance but for rounding: the later drawn one is moved toward the eye by twice the error bound of a distance
 // for each step of the drawing order, at grazing angles by more, because there an error across the plane is a longer
 // one along the ray.
-float layerDistance(uint instance, uint triangle, vec2 barycentric, float t, vec3 direction)
+float layerDistance(uint instance, uint triangle, vec2 barycentric, float t, vec3 origin, vec3 direction)
 {
     Candidate candidate = findCandidate(instance, triangle);
     float size = length(candidate.facing);
     if (size == 0.0 || !showsFrom(candidate.surface, candidate.facing, direction))
         return -1.0;
     float cosine = abs(dot(candidate.facing, direction)) / size;
-    return t - sameDistanceStep(t, length(rtFrame.eye), cosine) * float(candidate.surface.drawOrder);
+    return t - sameDistanceStep(t, length(origin), cosine) * float(candidate.surface.drawOrder);
 }
 
 #endif

@@ -19,13 +19,15 @@ void main()
         pixelOfStratum(winnerStratum(winner), winnerFromPixel(winner)))];
     RtMotion motion = MotionTable(denoise.motionToCurrent).at[old.entity];
     HitPoint point = movePoint(motion, HitPoint(old.position, old.error));
+    vec3 seen = movePoint(motion, HitPoint(old.seen, old.error)).position;
     vec3 normal = moveDirection(motion, old.normal);
     uint index = pixelIndex(pixelOfStratum(stratum, winnerToPixel(winner)));
     PixelTable(denoise.pixels).at[index].position = point.position;
+    PixelTable(denoise.pixels).at[index].seen = seen;
     PixelTable(denoise.pixels).at[index].error = point.error;
     PixelTable(denoise.pixels).at[index].normal = normal;
     PixelTable(denoise.pixels).at[index].geometricNormal = moveDirection(motion, old.geometricNormal);
     PixelTable(denoise.pixels).at[index].keyPixel = old.keyPixel;
     PixelTable(denoise.pixels).at[index].keyFrame = old.keyFrame;
-    GuideTable(denoise.guides).at[index] = RtGuide(point.position, packNormal(normal));
+    GuideTable(denoise.guides).at[index] = RtGuide(seen, packNormal(normal));
 }

@@ -13,7 +13,7 @@ void main()
         return;
     uint index = pixelIndex(pixel);
     bool lit = PixelTable(denoise.pixels).at[index].lit != 0u;
-    GuideTable(denoise.guides).at[index] = RtGuide(PixelTable(denoise.pixels).at[index].position,
+    GuideTable(denoise.guides).at[index] = RtGuide(PixelTable(denoise.pixels).at[index].seen,
                                                    lit ? packNormal(PixelTable(denoise.pixels).at[index].normal)
                                                        : kNoNormal);
     if (all(lessThan(pixel, denoise.strata)))

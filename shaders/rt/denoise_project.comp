@@ -24,8 +24,8 @@ void projectSample(uint stratum, uint number)
     RtMotion motion = MotionTable(denoise.motionToCurrent).at[old.entity];
     if (motion.kind == kMotionUnknown)
         return;
-    vec3 point = movePoint(motion, HitPoint(old.position, old.error)).position;
-    vec3 before = projectTo(denoise.previousCamera, old.position);
+    vec3 point = movePoint(motion, HitPoint(old.seen, old.error)).position;
+    vec3 before = projectTo(denoise.previousCamera, old.seen);
     vec3 after = projectTo(denoise.camera, point);
     if (before.z <= 0.0 || after.z <= 0.0)
         return;

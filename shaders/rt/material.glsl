@@ -67,22 +67,35 @@ StageState loadStage(uint stage)
     return result;
 }
 
-EntityIn entityInputs(RtEntity entity)
+// A point of the world in the model space of an entity whose axes are orthogonal and of one length.
+vec3 pointToModel(RtEntity entity, vec3 p)
+{
+    vec4 r0 = entity.worldFromModel[0], r1 = entity.worldFromModel[1], r2 = entity.worldFromModel[2];
+    vec3 moved = p - vec3(r0.w, r1.w, r2.w);
+    float size2 = r0.x * r0.x + r1.x * r1.x + r2.x * r2.x;
+    return (vec3(r0) * moved.x + vec3(r1) * moved.y + vec3(r2) * moved.z) * (size2 > 0.0 ? inversesqrt(size2) : 0.0);
+}
+
+// `eye`: the view's, or its image in a mirror.
+EntityIn entityInputs(RtEntity entity, vec3 eye)
 {
     EntityIn inputs;
     inputs.ambient = entity.ambient;
     inputs.directed = entity.directed;
     inputs.lightDirection = entity.lightDirection;
-    inputs.eye = entity.eyeInModel;
-    inputs.viewOrigin = rtFrame.eye;
+    inputs.eye = eye == rtFrame.eye ? entity.eyeInModel : pointToModel(entity, eye);
+    inputs.viewOrigin = eye;
     return inputs;
 }
 
+// `reflects`: a ray brings what the fake environment stages stand for; they are left out.
 AffineColor addStages(AffineColor color, uint first, uint count, VertexIn vertex, VertexIn vertexX, VertexIn vertexY,
-                      EntityIn entity, float density)
+                      EntityIn entity, float density, bool reflects)
 {
     for (uint i = 0u; i < count; ++i) {
         StageState stage = loadStage(first + i);
+        if (reflects && stage.unit[0].coord == kCoordEnvironment)
+            continue;
         vec4 texel0 = sampleFiltered(stage.unit[0], vertex, vertexX, vertexY, entity.eye);
         vec4 texel1 = stage.combine != kCombineSingle
                           ? sampleFiltered(stage.unit[1], vertex, vertexX, vertexY, entity.eye)
@@ -93,12 +106,12 @@ AffineColor addStages(AffineColor color, uint first, uint count, VertexIn vertex
     return color;
 }
 
-// Weight of the fog's colour at a point of the world.
-float fogAt(RtFog fog, vec3 position)
+// Weight of the fog's colour at a point of the world, from the eye of a view.
+float fogAt(RtFog fog, vec3 position, vec3 eye, vec3 forward)
 {
     float depth = fog.hasSurface != 0u ? fog.distance - dot(fog.normal, position) : 0.0;
-    float eyeDepth = fog.hasSurface != 0u ? fog.distance - dot(fog.normal, rtFrame.eye) : 1.0;
-    float along = dot(position - rtFrame.eye, rtFrame.forward);
+    float eyeDepth = fog.hasSurface != 0u ? fog.distance - dot(fog.normal, eye) : 1.0;
+    float along = dot(position - eye, forward);
     return fogDensity(fogCoordinates(along, fog.depthForOpaque, depth, eyeDepth));
 }
 
@@ -110,18 +123,19 @@ VertexIn neighbour(VertexIn vertex, SurfacePoint point, int axis)
     return vertex;
 }
 
-MaterialColor shadeSurface(SurfacePoint point)
+MaterialColor shadeSurface(SurfacePoint point, vec3 eye, vec3 forward)
 {
     VertexIn vertex = VertexIn(point.modelPosition, point.modelNormal, point.st, point.lightmapSt, point.color);
-    EntityIn entity = entityInputs(EntityTable(rtFrame.entities).at[point.entity]);
+    EntityIn entity = entityInputs(EntityTable(rtFrame.entities).at[point.entity], eye);
     float density = 0.0;
     RtFog fog;
     if (point.surface.fog != 0u) {
         fog = FogTable(rtFrame.fogs).at[point.surface.fog];
-        density = fogAt(fog, point.hit.position);
+        density = fogAt(fog, point.hit.position, eye, forward);
     }
     AffineColor color = addStages(beginAffine(), point.surface.firstStage, point.surface.stageCount, vertex,
-                                  neighbour(vertex, point, 0), neighbour(vertex, point, 1), entity, density);
+                                  neighbour(vertex, point, 0), neighbour(vertex, point, 1), entity, density,
+                                  (point.surface.flags & (kSurfaceWater | kSurfaceGlass)) != 0u);
     MaterialColor result = MaterialColor(color.lit, color.unlit, color.through);
     if (density > 0.0 && (point.surface.flags & kSurfaceFogged) != 0u) {
         result.albedo *= 1.0 - density;
@@ -142,7 +156,7 @@ bool isCovered(SceneTriangle triangle, RtSurface surface, vec2 barycentric)
         v0.position + (v1.position - v0.position) * barycentric.x + (v2.position - v0.position) * barycentric.y;
     VertexIn vertex = VertexIn(position, v0.normal, interpolate(v0.st, v1.st, v2.st, barycentric), vec2(0.0),
                                c0 + (c1 - c0) * barycentric.x + (c2 - c0) * barycentric.y);
-    EntityIn entity = entityInputs(EntityTable(rtFrame.entities).at[triangle.entity]);
+    EntityIn entity = entityInputs(EntityTable(rtFrame.entities).at[triangle.entity], rtFrame.eye);
     for (uint i = 0u; i < surface.stageCount; ++i) {
         StageState stage = loadStage(surface.firstStage + i);
         if (stage.blended != 0u || stage.depthEqual != 0u)

@@ -8,33 +8,31 @@
 #include "rt/accept.glsl"
 #include "rt/lights.glsl"
 #include "rt/sky.glsl"
+#include "rt/turn.glsl"
 
-struct CameraRay {
-    vec3 origin;
-    vec3 direction; // unit
-    vec3 directionX; // of the pixels to the right and below
-    vec3 directionY;
+// Numbers of a ray's parts: near depth range 0, far one 1, one more for each turn; of a reflection from here on.
+const uint kReflectionPart = 32u;
+
+// One water or glass surface along a camera ray is followed both ways: its reflection after the rest. The reflection of
+// a ray that has met one, or has turned, is followed instead of the rest, by chance.
+struct Reflection {
+    vec3 passed; // 0: there is none
+    vec3 position;
+    vec3 normal;
+    float t;
 };
 
 struct Picture {
     vec3 passed; // what the layers so far let through
     RtPixel pixel;
     float weightSum; // of the layers that take light
+    vec3 direction;  // of the camera ray
+    uint turns;      // of the ray so far
+    bool reflected;  // `reflection` has been used
+    Reflection reflection;
 };
 
-CameraRay makeCameraRay(uvec2 pixel, vec2 inPixel)
-{
-    vec2 size = vec2(rtFrame.size);
-    vec2 at = vec2(pixel) + inPixel;
-    CameraRay ray;
-    ray.origin = rtFrame.eye;
-    ray.direction = cameraDirection(rtFrame.forward, rtFrame.left, rtFrame.up, at / size);
-    ray.directionX = cameraDirection(rtFrame.forward, rtFrame.left, rtFrame.up, (at + vec2(1.0, 0.0)) / size);
-    ray.directionY = cameraDirection(rtFrame.forward, rtFrame.left, rtFrame.up, (at + vec2(0.0, 1.0)) / size);
-    return ray;
-}
-
-void addLayer(inout Picture picture, SurfacePoint point, MaterialColor color, float random)
+void addLayer(inout Picture picture, SurfacePoint point, MaterialColor color, float t, float random)
 {
     picture.pixel.emission += picture.passed * color.glow;
     vec3 albedo = picture.passed * color.albedo;
@@ -44,73 +42,110 @@ void addLayer(inout Picture picture, SurfacePoint point, MaterialColor color, fl
         if (random * picture.weightSum < weight) {
             picture.pixel.lit = 1u;
             picture.pixel.position = point.hit.position;
+            picture.pixel.seen = picture.turns == 0u ? point.hit.position : rtFrame.eye + picture.direction * t;
             picture.pixel.error = point.hit.error;
             picture.pixel.geometricNormal = point.geometricNormal;
             // A surface seen from behind is lit on the side that is seen.
             picture.pixel.normal = point.frontFace ? point.normal : -point.normal;
             picture.pixel.albedo = albedo / weight;
-            picture.pixel.entity = point.entity;
+            picture.pixel.entity = picture.turns == 0u ? point.entity : 0u;
         }
     }
     picture.passed *= color.through;
 }
 
-void addHit(inout Picture picture, CameraRay ray, uint instance, uint triangle, vec2 barycentric, float random)
+// What water or glass reflects. True: the ray goes on as the reflected one.
+bool addReflection(inout Picture picture, inout CameraRay ray, SurfacePoint point, float t, float random)
+{
+    bool water = (point.surface.flags & kSurfaceWater) != 0u;
+    vec3 normal = point.frontFace ? point.normal : -point.normal;
+    // A shading normal may point away from the eye, or send the reflection into the surface.
+    if (dot(normal, ray.direction) >= 0.0 || dot(reflect(ray.direction, normal), point.geometricNormal) <= 0.0)
+        normal = point.geometricNormal;
+    float share = reflectedShare(min(-dot(normal, ray.direction), 1.0), water ? kWaterIndex : kGlassIndex,
+                                 water && !point.frontFace);
+    if (picture.turns == 0u && !picture.reflected) {
+        picture.reflected = true;
+        picture.reflection = Reflection(picture.passed * share, point.hit.position, normal, t);
+        picture.passed *= 1.0 - share;
+        return false;
+    }
+    if (random >= share)
+        return false;
+    turnAtPlane(ray, point.hit.position, normal, t);
+    return true;
+}
+
+// True: the ray has turned, and what is straight on does not show.
+bool addHit(inout Picture picture, inout CameraRay ray, uint instance, uint triangle, vec2 barycentric, float t,
+            vec2 random)
 {
     SurfacePoint point =
         makeSurfacePoint(instance, triangle, barycentric, ray.origin, ray.direction, ray.directionX, ray.directionY);
-    addLayer(picture, point, shadeSurface(point), random);
+    if ((point.surface.flags & (kSurfaceWater | kSurfaceGlass)) != 0u &&
+        addReflection(picture, ray, point, t, random.y))
+        return true;
+    addLayer(picture, point, shadeSurface(point, ray.origin, ray.forward), t, random.x);
+    if (point.surface.portal == 0u || !point.frontFace || picture.passed == vec3(0.0))
+        return false;
+    turnThroughPortal(ray, PortalTable(rtFrame.portals).at[point.surface.portal - 1u], t,
+                      abs(dot(point.geometricNormal, ray.direction)));
+    return true;
 }
 
-// All layers in (0, tMax] in front of `limit` in drawing order, in batches. Each batch ends after a larger key, and
-// there are finitely many layers: the loop ends. It also ends where nothing behind can show any more.
-void addLayers(inout Picture picture, CameraRay ray, uint mask, float tMax, float limit, uvec4 key)
+// All layers in front of `limit` in drawing order, in batches. Each batch ends after a larger key, and there are
+// finitely many layers: the loop ends. It also ends where nothing behind can show any more. True: the ray has turned.
+bool addLayers(inout Picture picture, inout CameraRay ray, float tMax, float limit, uvec4 key)
 {
-    LayerKey after = LayerKey(0.0, 0u, 0u);
+    LayerKey after = LayerKey(ray.from, 0u, 0u);
     uint number = 0u;
     for (;;) {
-        LayerBatch batch = traceLayers(ray.origin, ray.direction, tMax, mask, after);
+        LayerBatch batch = traceLayers(ray.origin, ray.direction, tMax, ray.layerMask, after);
         for (uint i = 0u; i < batch.count; ++i) {
             Layer layer = batch.layers[i];
             if (layer.key.distance > limit || picture.passed == vec3(0.0))
-                return;
-            float random = randomNumbers(key, kDimensionLayer + (number << 8u)).x;
-            addHit(picture, ray, layer.key.instance, layer.key.triangle, layer.barycentric, random);
+                return false;
+            vec2 random = randomNumbers(key, kDimensionLayer + (number << 8u)).xz;
+            if (addHit(picture, ray, layer.key.instance, layer.key.triangle, layer.barycentric, layer.t, random))
+                return true;
             ++number;
         }
         if (batch.count < kLayersPerBatch)
-            return;
+            return false;
         after = batch.layers[kLayersPerBatch - 1u].key;
     }
 }
 
 // One depth range: layers and solids by turns until nothing behind shows. A solid that lets something through (the
 // accept function samples the finest texels, shading the filtered ones) is passed at the next number after its
-// distance. Returns the first solid's distance, 0 if there is none.
-float addRange(inout Picture picture, CameraRay ray, uint solidMask, uint layerMask, uvec4 key)
+// distance. True: the ray has turned. `first` becomes the first solid's distance, 0 if there is none.
+bool addRange(inout Picture picture, inout CameraRay ray, uvec4 key, out float first)
 {
-    float first = 0.0;
-    float from = 0.0;
+    first = 0.0;
+    float from = ray.from;
+    float farthest = ray.from + rtFrame.farQu;
     bool layered = false;
     for (;;) {
-        Hit solid = traceClosest(ray.origin, ray.direction, from, rtFrame.farQu, solidMask, true);
-        if ((rtFrame.flags & kFrameLayers) != 0u && !layered) {
-            // Layers behind a solid that lets light through are rare and shown in front of what is behind it.
-            float limit = solid.t > 0.0 ? solid.t : rtFrame.farQu;
-            float step = sameDistanceStep(limit, length(rtFrame.eye), kGrazingCosine);
-            addLayers(picture, ray, layerMask, limit + step * float(rtFrame.layerOrderCount + 1u), limit, key);
-            layered = true;
-        }
+        Hit solid = traceClosest(ray.origin, ray.direction, from, farthest, ray.solidMask, true);
         if (first == 0.0)
             first = solid.t;
+        if ((rtFrame.flags & kFrameLayers) != 0u && !layered) {
+            // Layers behind a solid that lets light through are rare and shown in front of what is behind it.
+            float limit = solid.t > 0.0 ? solid.t : farthest;
+            float step = sameDistanceStep(limit, length(ray.origin), kGrazingCosine);
+            if (addLayers(picture, ray, limit + step * float(rtFrame.layerOrderCount + 1u), limit, key))
+                return true;
+            layered = true;
+        }
         if (solid.t == 0.0 || picture.passed == vec3(0.0))
-            return first;
-        addHit(picture, ray, solid.instance, solid.triangle, solid.barycentric, randomNumbers(key, kDimensionLayer).y);
+            return false;
+        if (addHit(picture, ray, solid.instance, solid.triangle, solid.barycentric, solid.t,
+                   randomNumbers(key, kDimensionLayer).yw))
+            return true;
         if (picture.passed == vec3(0.0))
-            return first;
+            return false;
         from = solid.t * (1.0 + 2.0 * kUnitRoundoff);
     }
-    return first;
 }
 
 void addSky(inout Picture picture, CameraRay ray)
@@ -119,12 +154,42 @@ void addSky(inout Picture picture, CameraRay ray)
         return;
     uint sky = 0u;
     if ((rtFrame.flags & kFrameSkySurfaces) != 0u) {
-        Hit hit = traceClosest(ray.origin, ray.direction, 0.0, rtFrame.farQu, kMaskSky, true);
+        Hit hit = traceClosest(ray.origin, ray.direction, ray.from, ray.from + rtFrame.farQu, kMaskSky, true);
         if (hit.t > 0.0)
             sky = SurfaceTable(rtFrame.surfaces).at[findTriangle(hit.instance, hit.triangle).surface].sky;
     }
     picture.pixel.emission += picture.passed * skyColor(SkyTable(rtFrame.skies).at[sky], ray.direction, ray.directionX,
                                                         ray.directionY);
+}
+
+// Follows a ray through the near depth range, the far one and all turns. Returns the unfolded distance of the first
+// solid after the last turn. `part` numbers the ray's parts for random numbers.
+float addRay(inout Picture picture, CameraRay ray, bool near, uint part, uvec4 key)
+{
+    float distance = 0.0;
+    for (;;) {
+        if (near) {
+            ray.solidMask = kMaskNearSolid;
+            ray.layerMask = kMaskNearLayer;
+        }
+        bool turned = addRange(picture, ray, key ^ uvec4(0u, 0u, 0u, 0x9e3779b9u * part), distance);
+        ++part;
+        if (picture.passed == vec3(0.0))
+            return distance;
+        if (turned && picture.turns == rtFrame.reflectionDepth)
+            return distance;
+        if (!turned && !near) {
+            addSky(picture, ray);
+            return distance;
+        }
+        if (turned) {
+            ++picture.turns;
+        } else {
+            ray.solidMask = kMaskSolid;
+            ray.layerMask = kMaskLayer;
+        }
+        near = false;
+    }
 }
 
 void primaryPixel(uvec2 pixelPosition)
@@ -133,19 +198,34 @@ void primaryPixel(uvec2 pixelPosition)
     vec2 inPixel = vec2(0.5);
     if ((rtFrame.flags & kFrameAntialiasing) != 0u)
         inPixel = (rtFrame.flags & kFrameSharedJitter) != 0u ? rtFrame.jitter : randomNumbers(key, kDimensionLens).xy;
-    CameraRay ray = makeCameraRay(pixelPosition, inPixel);
+    CameraRay ray = makeCameraRay(vec2(pixelPosition) + inPixel);
     Picture picture;
     picture.passed = vec3(1.0);
     picture.weightSum = 0.0;
-    picture.pixel = RtPixel(vec3(0.0), 0u, vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0), vec3(0.0),
-                            vec3(0.0), packKeyPixel(pixelPosition), rtFrame.frame, 0u);
+    picture.direction = ray.direction;
+    picture.turns = 0u;
+    picture.reflected = false;
+    picture.reflection = Reflection(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
+    picture.pixel = RtPixel(vec3(0.0), 0u, vec3(0.0), 0.0, vec3(0.0), vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0),
+                            vec3(0.0), vec3(0.0), packKeyPixel(pixelPosition), rtFrame.frame, 0u);
+    bool near = (rtFrame.flags & kFrameNearEntities) != 0u;
+    uint part = near ? 0u : 1u;
     float distance = 0.0;
-    if ((rtFrame.flags & kFrameNearEntities) != 0u)
-        distance = addRange(picture, ray, kMaskNearSolid, kMaskNearLayer, key);
-    if (picture.passed != vec3(0.0))
-        distance = addRange(picture, ray, kMaskSolid, kMaskLayer, key ^ uvec4(0u, 0u, 0u, 0x9e3779b9u));
-    if (picture.passed != vec3(0.0))
-        addSky(picture, ray);
+    // Once for the camera ray, once more for a reflection of it.
+    for (;;) {
+        float reached = addRay(picture, ray, near, part, key);
+        if (part < kReflectionPart)
+            distance = reached;
+        if (picture.reflection.passed == vec3(0.0))
+            break;
+        picture.passed = picture.reflection.passed;
+        picture.reflection.passed = vec3(0.0);
+        picture.turns = 1u;
+        ray = makeCameraRay(vec2(pixelPosition) + inPixel);
+        turnAtPlane(ray, picture.reflection.position, picture.reflection.normal, picture.reflection.t);
+        near = false;
+        part = kReflectionPart;
+    }
     picture.pixel.albedo *= picture.weightSum;
     picture.pixel.distance = distance;
     PixelTable(rtFrame.pixels).at[pixelIndex(pixelPosition)] = picture.pixel;

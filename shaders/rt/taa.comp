@@ -58,7 +58,7 @@ Shift findShift(ivec2 pixel)
     } else {
         RtMotion motion = MotionTable(taa.motionToPrevious).at[shown.entity];
         kind = motion.kind;
-        now = shown.lit != 0u ? shown.position : taa.camera.eye + direction * shown.distance;
+        now = shown.lit != 0u ? shown.seen : taa.camera.eye + direction * shown.distance;
         old = movePoint(motion, HitPoint(now, vec3(0.0))).position;
     }
     vec3 here = projectTo(taa.camera, now), there = projectTo(taa.previousCamera, old);

@@ -35,6 +35,10 @@ SHARED_FLOAT kUnitRoundoff = 5.9604644775390625e-8f;
 SHARED_FLOAT kHitPointError = 4.7683738e-7f; // gamma(8)
 // A rigid or scaled transform of a point: 3 products and 3 sums a component, on |row| |p| + |t|.
 SHARED_FLOAT kTransformError = 1.7881397e-7f; // gamma(3)
+// Refractive indices against air, visible light.
+SHARED_FLOAT kWaterIndex = 1.333f;
+SHARED_FLOAT kGlassIndex = 1.5f;
+
 // Distance along a unit direction between two hits that are the same point: both have kHitPointError in position, and
 // t itself 3 roundings more on the whole path.
 SHARED_FLOAT kSameDistanceError = 1.1324895e-6f; // gamma(19)

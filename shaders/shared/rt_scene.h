@@ -44,6 +44,8 @@ SHARED_CONST kSurfaceCullBack = 0x2u; // back faces don't show (the engine's fro
 SHARED_CONST kSurfaceCullFront = 0x4u;
 SHARED_CONST kSurfaceSky = 0x8u;
 SHARED_CONST kSurfaceFogged = 0x10u; // the fog covers it after its stages; others fade stage by stage
+SHARED_CONST kSurfaceWater = 0x20u;  // reflects by Fresnel's law as the boundary of a volume of water
+SHARED_CONST kSurfaceGlass = 0x40u;  // the same as a thin pane
 
 // A run of triangles of one material, evaluated for this frame.
 struct RtSurface {
@@ -53,6 +55,12 @@ struct RtSurface {
     uint fog;   // 0 none
     uint drawOrder; // among blended and decal surfaces: later drawn is higher, at least 1; 0 for ordinary solids
     uint sky;       // index of RtSky if kSurfaceSky
+    uint portal;    // 1 + index of RtPortal; 0: it leads nowhere
+};
+
+// A mirror or portal: rows of the affine map from what is in front of it to what is seen in it.
+struct RtPortal {
+    vec4 rows[3];
 };
 
 struct RtEntity {
@@ -137,14 +145,15 @@ struct RtPixel {
     vec3 position; // of the lit layer
     uint lit;      // 0: nothing here takes light
     vec3 error;    // of position, see lib/offset.glsl
-    float distance; // along the ray to the first solid, 0: none
+    float distance; // along the ray, mirrors and portals unfolded, to the first solid; 0: none
+    vec3 seen;      // where the lit layer appears to be: its position, or its image in a mirror or portal
     vec3 normal;    // unit, shading, on the eye's side
     vec3 geometricNormal; // unit, on the eye's side
     vec3 albedo;   // A, times what the layers in front let through
     vec3 emission; // B of all layers
     uint keyPixel; // of the direct stage's random numbers: x | y << 16
     uint keyFrame;
-    uint entity; // of the lit layer, in the entity table
+    uint entity; // of the lit layer, in the entity table; 0 where it is seen in a mirror or portal
 };
 
 SHARED_CONST kFrameNearEntities = 0x1u;
@@ -169,6 +178,7 @@ struct RtFrame {
     SHARED_ADDRESS grid;
     SHARED_ADDRESS skies;
     SHARED_ADDRESS fogs;
+    SHARED_ADDRESS portals;
     SHARED_ADDRESS treeNodes;     // back end `compute`: scene tree over the instances
     SHARED_ADDRESS treeInstances; // in its leaf order
     SHARED_ADDRESS pixels;
@@ -197,6 +207,7 @@ struct RtFrame {
     uint skyCount;
     ivec3 gridCounts;
     uint cullLights; // rt_cullLights
+    uint reflectionDepth; // rt_reflectionDepth: mirrors, portals and reflections one after the other
     vec3 forwardUnit;
     vec2 jitter; // in a pixel, [0, 1)
 };

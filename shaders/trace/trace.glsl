@@ -6,10 +6,11 @@
 //   Hit traceClosest(vec3 origin, vec3 direction, float tMin, float tMax, uint mask, bool cullBack)
 //   bool traceVisible(vec3 origin, vec3 direction, float tMax, uint mask)    nothing solid in (0, tMax)
 //   LayerBatch traceLayers(vec3 origin, vec3 direction, float tMax, uint mask, LayerKey after)
+//     a layer's key is nearer than its triangle: none is missed behind after.distance
 // and asks the stage for
 //   bool acceptHit(uint instance, uint triangle, vec2 barycentric, float t, vec3 direction)
 //     of every non-opaque triangle, in any order and perhaps more than once: is there something at this point?
-//   float layerDistance(uint instance, uint triangle, vec2 barycentric, float t, vec3 direction)
+//   float layerDistance(uint instance, uint triangle, vec2 barycentric, float t, vec3 origin, vec3 direction)
 //     where a blended surface stands in the drawing order along the ray; negative: it doesn't show.
 // t is in units of |direction|.
 #ifndef Q3RT_TRACE_GLSL

@@ -18,6 +18,7 @@ const uint kSearchLayers = 1u; // nothing counts, everything is collected
 struct BvhQuery {
     uint kind; // a literal at every call: the other kind's code and data fold away
     bool cullBack;
+    vec3 origin;
     vec3 direction;
     Hit hit;
     LayerBatch batch;
@@ -31,8 +32,8 @@ BvhInstance loadBvhInstance(inout BvhQuery query, uint item) {
 bool onBvhTriangle(inout BvhQuery query, BvhInstance instance, BvhTriangle triangle, TriangleHit test)
 {
     if (query.kind == kSearchLayers) {
-        float distance =
-            layerDistance(instance.customIndex, triangle.number, test.barycentric, test.t, query.direction);
+        float distance = layerDistance(instance.customIndex, triangle.number, test.barycentric, test.t, query.origin,
+                                       query.direction);
         if (distance > 0.0)
             insertLayer(query.batch, Layer(LayerKey(distance, instance.customIndex, triangle.number), test.t,
                                            test.barycentric));
@@ -49,11 +50,12 @@ bool onBvhTriangle(inout BvhQuery query, BvhInstance instance, BvhTriangle trian
 
 #include "trace/bvh_traverse.glsl"
 
-BvhQuery beginQuery(uint kind, vec3 direction, bool cullBack)
+BvhQuery beginQuery(uint kind, vec3 origin, vec3 direction, bool cullBack)
 {
     BvhQuery query;
     query.kind = kind;
     query.cullBack = cullBack;
+    query.origin = origin;
     query.direction = direction;
     query.hit = Hit(0.0, 0u, 0u, vec2(0.0));
     return query;
@@ -61,23 +63,23 @@ BvhQuery beginQuery(uint kind, vec3 direction, bool cullBack)
 
 Hit traceClosest(vec3 origin, vec3 direction, float tMin, float tMax, uint mask, bool cullBack)
 {
-    BvhQuery query = beginQuery(kSearchHit, direction, cullBack);
+    BvhQuery query = beginQuery(kSearchHit, origin, direction, cullBack);
     traverseBvh(rtFrame.treeNodes, origin, direction, tMin, tMax, mask, false, query);
     return query.hit;
 }
 
 bool traceVisible(vec3 origin, vec3 direction, float tMax, uint mask)
 {
-    BvhQuery query = beginQuery(kSearchHit, direction, false);
+    BvhQuery query = beginQuery(kSearchHit, origin, direction, false);
     traverseBvh(rtFrame.treeNodes, origin, direction, 0.0, tMax, mask, true, query);
     return query.hit.t == 0.0;
 }
 
 LayerBatch traceLayers(vec3 origin, vec3 direction, float tMax, uint mask, LayerKey after)
 {
-    BvhQuery query = beginQuery(kSearchLayers, direction, false);
+    BvhQuery query = beginQuery(kSearchLayers, origin, direction, false);
     query.batch = emptyBatch(after);
-    traverseBvh(rtFrame.treeNodes, origin, direction, 0.0, tMax, mask, false, query);
+    traverseBvh(rtFrame.treeNodes, origin, direction, after.distance, tMax, mask, false, query);
     return query.batch;
 }
 

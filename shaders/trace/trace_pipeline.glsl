@@ -28,7 +28,7 @@ LayerBatch traceLayers(vec3 origin, vec3 direction, float tMax, uint mask, Layer
 {
     layersPayload = emptyBatch(after);
     traceRayEXT(sceneStructure, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsSkipClosestHitShaderEXT, mask, kHitGroupLayers, 0u,
-                kMissLayers, origin, 0.0, direction, tMax, 2);
+                kMissLayers, origin, after.distance, direction, tMax, 2);
     return layersPayload;
 }
 

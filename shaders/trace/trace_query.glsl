@@ -43,13 +43,14 @@ LayerBatch traceLayers(vec3 origin, vec3 direction, float tMax, uint mask, Layer
 {
     LayerBatch batch = emptyBatch(after);
     rayQueryEXT query;
-    rayQueryInitializeEXT(query, sceneStructure, gl_RayFlagsNoOpaqueEXT, mask, origin, 0.0, direction, tMax);
+    rayQueryInitializeEXT(query, sceneStructure, gl_RayFlagsNoOpaqueEXT, mask, origin, after.distance, direction,
+                          tMax);
     while (rayQueryProceedEXT(query)) {
         uint instance = rayQueryGetIntersectionInstanceCustomIndexEXT(query, false);
         uint triangle = rayQueryGetIntersectionPrimitiveIndexEXT(query, false);
         vec2 barycentric = rayQueryGetIntersectionBarycentricsEXT(query, false);
         float t = rayQueryGetIntersectionTEXT(query, false);
-        float distance = layerDistance(instance, triangle, barycentric, t, direction);
+        float distance = layerDistance(instance, triangle, barycentric, t, origin, direction);
         if (distance > 0.0)
             insertLayer(batch, Layer(LayerKey(distance, instance, triangle), t, barycentric));
     }
