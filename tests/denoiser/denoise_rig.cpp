@@ -52,6 +52,7 @@ std::vector<RtPixel> DenoiseRig::findSurfaces(const RtFrame& camera) const {
             pixel.distance = std::min(toFloor, toWall);
             pixel.position = camera.eye + direction * pixel.distance;
             pixel.normal = pixel.geometricNormal = toFloor < toWall ? vec3(0, 0, 1) : vec3(-1, 0, 0);
+            pixel.seen = pixel.position;
             pixel.lit = pixel.position.z <= 150 ? 1 : 0;
             pixel.albedo = vec3(1);
             pixel.keyPixel = x | y << 16;
