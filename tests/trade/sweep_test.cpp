@@ -1,4 +1,4 @@
-// The program's sweep of 3 points at 64x48 on a map of our own, and its going on after a cut.
+// The program's smoke sweep, 10 points at 64x48 on a map of our own, and its going on after a cut; a recording's.
 
 #include <algorithm>
 #include <fstream>
@@ -23,6 +23,7 @@ std::string readText(const fs::path& path) {
 
 std::vector<std::string> sweepArguments(const fs::path& folder) {
     return {"trade",
+            "--smoke",
             "--map",
             "room_square_light",
             "--basepath",
@@ -33,10 +34,6 @@ std::vector<std::string> sweepArguments(const fs::path& folder) {
             "spawn:0..1",
             "--size",
             "64x48",
-            "--axis",
-            "rt_numRandomDL=1,4,0",
-            "--set",
-            "rt_taa=0",
             "--warmup",
             "1",
             "--count",
@@ -70,7 +67,7 @@ size_t countLines(const std::string& text) { return static_cast<size_t>(std::cou
 
 } // namespace
 
-TEST(TradeCommand, MeasuresThreePointsAndGoesOnAfterACut) {
+TEST(TradeCommand, MeasuresTheSmokeSweepAndGoesOnAfterACut) {
     const fs::path folder = makeScratchFolder("sweep");
     const std::vector<std::string> environment = {"XDG_CACHE_HOME=" + (folder / "cache").string()};
     const ProgramResult first = runQ3rt(sweepArguments(folder), environment);
@@ -79,7 +76,7 @@ TEST(TradeCommand, MeasuresThreePointsAndGoesOnAfterACut) {
     EXPECT_NE(first.output.find("all lights"), std::string::npos) << first.output;
     EXPECT_NE(readText(folder / "sweep.svg").find("</svg>"), std::string::npos);
     const std::string lines = readText(folder / "sweep.jsonl");
-    ASSERT_EQ(countLines(lines), 3u);
+    ASSERT_EQ(countLines(lines), 10u);
     for (size_t start = 0; start < lines.size(); start = lines.find('\n', start) + 1) {
         const auto json = nlohmann::json::parse(lines.substr(start, lines.find('\n', start) - start));
         EXPECT_GT(json["wall_ms"]["median"], 0.0);
@@ -88,7 +85,7 @@ TEST(TradeCommand, MeasuresThreePointsAndGoesOnAfterACut) {
         EXPECT_EQ(json["views"].size(), 2u);
         EXPECT_EQ(json["frames"], 6);
         EXPECT_FALSE(json["passes"].empty());
-        EXPECT_NE(json["command"].get<std::string>().find("--axis"), std::string::npos);
+        EXPECT_NE(json["command"].get<std::string>().find("--smoke"), std::string::npos);
     }
     size_t references = 0;
     for (const auto& entry : fs::directory_iterator(folder / "cache/q3rt/references"))
@@ -96,15 +93,15 @@ TEST(TradeCommand, MeasuresThreePointsAndGoesOnAfterACut) {
     EXPECT_EQ(references, 2u);
 
     // The last line half gone: one point is measured again, the others stay byte for byte.
-    const size_t twoLines = lines.rfind('\n', lines.size() - 2) + 1;
-    fs::resize_file(folder / "sweep.jsonl", twoLines + 100);
+    const size_t nineLines = lines.rfind('\n', lines.size() - 2) + 1;
+    fs::resize_file(folder / "sweep.jsonl", nineLines + 100);
     const ProgramResult second = runQ3rt(sweepArguments(folder), environment);
     ASSERT_EQ(second.exitCode, 0) << second.errors;
-    EXPECT_NE(second.errors.find("2 of 3 points are measured already"), std::string::npos) << second.errors;
+    EXPECT_NE(second.errors.find("9 of 10 points are measured already"), std::string::npos) << second.errors;
     EXPECT_EQ(second.errors.find("reference frame"), std::string::npos) << "references come from the cache";
     const std::string again = readText(folder / "sweep.jsonl");
-    EXPECT_EQ(countLines(again), 3u);
-    EXPECT_EQ(again.substr(0, twoLines), lines.substr(0, twoLines));
+    EXPECT_EQ(countLines(again), 10u);
+    EXPECT_EQ(again.substr(0, nineLines), lines.substr(0, nineLines));
 }
 
 TEST(TradeCommand, MeasuresChosenFramesOfARecording) {
