@@ -49,26 +49,27 @@ void TraceHarness::loadMap(const std::string& name) {
     });
 }
 
-void TraceHarness::draw(const Camera& camera, int frames) {
+void TraceHarness::submit(const Camera& camera) {
     const refdef_t view = makeView(camera, m_width, m_height);
+    m_engine.enter([&](const refexport_t& module) {
+        module.BeginFrame(0);
+        module.ClearScene();
+        for (const refEntity_t& entity : m_entities)
+            module.AddRefEntityToScene(&entity);
+        module.RenderScene(&view);
+    });
+}
+
+void TraceHarness::draw(const Camera& camera, int frames) {
     for (int i = 0; i < frames; ++i) {
-        m_engine.enter([&view](const refexport_t& module) {
-            module.BeginFrame(0);
-            module.ClearScene();
-            module.RenderScene(&view);
-        });
+        submit(camera);
         m_engine.endFrame(false);
     }
 }
 
 HostFrame TraceHarness::picture(const Camera& camera, int frames) {
     draw(camera, frames - 1);
-    const refdef_t view = makeView(camera, m_width, m_height);
-    m_engine.enter([&view](const refexport_t& module) {
-        module.BeginFrame(0);
-        module.ClearScene();
-        module.RenderScene(&view);
-    });
+    submit(camera);
     std::optional<HostFrame> frame = m_engine.endFrame(true);
     if (!frame) throw std::runtime_error("the module gave no picture");
     return *frame;

@@ -25,6 +25,8 @@ class TraceHarness {
     TraceHarness(FileSource& files, const std::filesystem::path& module, int width, int height);
     void set(const std::string& cvar, const std::string& value) { m_engine.cvars.preset(cvar, value); }
     void loadMap(const std::string& name);
+    /// Of every view drawn from now on.
+    void setEntities(std::vector<refEntity_t> entities) { m_entities = std::move(entities); }
     /// Draws the view `frames` times.
     void draw(const Camera& camera, int frames);
     /// The last of `frames` draws as shown.
@@ -34,7 +36,10 @@ class TraceHarness {
     HeadlessEngine& engine() { return m_engine; }
 
   private:
+    void submit(const Camera& camera);
+
     HeadlessEngine m_engine;
+    std::vector<refEntity_t> m_entities;
     int m_width, m_height;
 };
 
