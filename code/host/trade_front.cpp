@@ -9,7 +9,7 @@
 namespace q3rt {
 namespace {
 
-constexpr size_t kColumnCount = 11;
+constexpr size_t kColumnCount = 11, kRaysColumn = 9;
 using Row = std::array<std::string, kColumnCount>;
 
 /// 0.912 +-0.004
@@ -71,6 +71,9 @@ std::string formatTradeTable(std::span<const TradeResult> results, std::span<con
     for (size_t i = 0; i < results.size(); ++i)
         rows.push_back(makeRow(results[i], i + 1, onFront[i], labels[i]));
     std::array<size_t, kColumnCount> widths{};
+    const bool knowsRays = std::any_of(results.begin(), results.end(),
+                                       [](const TradeResult& result) { return result.figures.contains("rays"); });
+    if (!knowsRays) rows[0][kRaysColumn].clear();
     for (const Row& row : rows)
         for (size_t c = 0; c < kColumnCount; ++c)
             widths[c] = std::max(widths[c], row[c].size());

@@ -52,6 +52,12 @@ std::string drawText(double x, double y, const std::string& text, Align align = 
            escapeXml(text) + "</text>\n";
 }
 
+/// Three digits or more, never as a power of ten.
+std::string threeDigits(double value) {
+    const int before = value > 0 ? static_cast<int>(std::floor(std::log10(value))) + 1 : 1;
+    return formatText("%.*f", std::clamp(3 - before, 0, 9), value);
+}
+
 class Plot {
   public:
     Plot(std::span<const TradeResult> results, std::span<const std::string> labels)
@@ -186,8 +192,8 @@ class Plot {
             const bool bold = isOnFront(i);
             svg += drawText(kListLeft + 20, y, formatText("%zu", i + 1), Align::End, bold);
             svg += drawText(kListLeft + 28, y, m_labels[i], Align::Start, bold);
-            svg += drawText(kListTimeEnd, y, formatText("%.3g", m_costs[i].ms), Align::End, bold);
-            svg += drawText(kListErrorEnd, y, formatText("%.3g", m_costs[i].error), Align::End, bold);
+            svg += drawText(kListTimeEnd, y, threeDigits(m_costs[i].ms), Align::End, bold);
+            svg += drawText(kListErrorEnd, y, threeDigits(m_costs[i].error), Align::End, bold);
         }
         return svg;
     }
