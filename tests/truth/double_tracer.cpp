@@ -6,6 +6,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -68,6 +69,20 @@ double sampleAlpha(const Texture& texture, const dvec2& st) {
                     glm::mix(alphaOf(cell.x, cell.y + 1), alphaOf(cell.x + 1, cell.y + 1), f.x), f.y);
 }
 
+/// How far a deform moves a vertex at most, qu. A sprite turns about its middle: no farther than its longest edge.
+double reachOf(const Deform& deform, double longestEdge) {
+    if (deform.kind == DeformKind::AutoSprite || deform.kind == DeformKind::AutoSprite2) return longestEdge;
+    const double wave = std::abs(double(deform.wave.base)) + std::abs(double(deform.wave.amplitude));
+    return wave * std::max(1.0, double(glm::length(deform.move))) + std::abs(double(deform.bulgeHeight));
+}
+
+/// Does the line meet the box at t in [0, tMax]?
+bool meetsBox(const Bounds& box, const dvec3& origin, const dvec3& direction, double tMax) {
+    const dvec3 one = (dvec3(box.mins) - origin) / direction, other = (dvec3(box.maxs) - origin) / direction;
+    const dvec3 enter = glm::min(one, other), leave = glm::max(one, other);
+    return std::max({enter.x, enter.y, enter.z, 0.0}) <= std::min({leave.x, leave.y, leave.z, tMax});
+}
+
 } // namespace
 
 struct DoubleTracer::Embree {
@@ -112,6 +127,8 @@ DoubleTracer::DoubleTracer(const World& world, const MaterialLibrary& materials,
         const WorldSurface& surface = world.surfaces[number];
         const auto surfaceClass = classifySurface(materials.drawn(surface.material));
         if (!surface.drawn || !surfaceClass) continue;
+        const Material& material = materials.drawn(surface.material);
+        if (!material.deforms.empty()) m_deformed.push_back(boundDeformed(surface, material));
         for (uint32_t i = 0; i + 2 < surface.indexCount; i += 3)
             m_triangles.push_back({number, surface.firstIndex + i, *surfaceClass});
     }
@@ -136,6 +153,21 @@ DoubleTracer::DoubleTracer(const World& world, const MaterialLibrary& materials,
 }
 
 DoubleTracer::~DoubleTracer() = default;
+
+Bounds DoubleTracer::boundDeformed(const WorldSurface& surface, const Material& material) const {
+    double longestEdge = 0;
+    for (uint32_t i = 0; i + 2 < surface.indexCount; i += 3)
+        for (uint32_t k = 0; k < 3; ++k) {
+            const uint32_t from = m_world.indices[surface.firstIndex + i + k];
+            const uint32_t to = m_world.indices[surface.firstIndex + i + (k + 1) % 3];
+            longestEdge = std::max(
+                longestEdge, double(glm::length(m_world.vertices[from].position - m_world.vertices[to].position)));
+        }
+    double reach = 0;
+    for (const Deform& deform : material.deforms)
+        reach += reachOf(deform, longestEdge);
+    return {surface.bounds.mins - vec3(reach), surface.bounds.maxs + vec3(reach)};
+}
 
 void DoubleTracer::visitCandidates(const dvec3& origin, const dvec3& direction, double tMax,
                                    const std::function<bool(uint32_t)>& visit) const {
@@ -218,6 +250,8 @@ std::optional<DoubleHit> DoubleTracer::look(const dvec3& origin, const dvec3& di
         return false;
     });
     if (!nearest || nearestOther < nearest->t) return std::nullopt;
+    for (const Bounds& box : m_deformed)
+        if (meetsBox(box, origin, direction, nearest->t)) return std::nullopt;
     DoubleHit& hit = *nearest;
     hit.position = origin + direction * hit.t;
     const uint32_t first = m_triangles[hit.triangle].firstIndex;
@@ -291,7 +325,8 @@ dvec3 DoubleTracer::triangleLight(const DoubleHit& hit, const TriangleLight& lig
 dvec3 DoubleTracer::surfaceLight(const DoubleHit& hit, std::mt19937& random) const {
     const auto sizeOf = [&](const TriangleLight& light) {
         const double height = glm::dot(hit.position - dvec3(light.corner[0]), dvec3(light.normal));
-        if (height == 0 || (height < 0 && !light.twoSided)) return 0.0;
+        // No light reaches its own plane, also where the shading normal leans to it.
+        if (std::abs(height) < kOwnSurfaceQu || (height < 0 && !light.twoSided)) return 0.0;
         const vec3& l = light.radiance;
         return formFactor(hit, light) * double(l.r + l.g + l.b);
     };

@@ -32,7 +32,7 @@ class DoubleTracer {
     DoubleTracer(const DoubleTracer&) = delete;
     DoubleTracer& operator=(const DoubleTracer&) = delete;
 
-    /// What the eye meets: the first solid, unless something see-through lies before it (then nullopt).
+    /// What the eye meets: the first solid, unless something see-through or deformed may lie before it (then nullopt).
     std::optional<DoubleHit> look(const dvec3& origin, const dvec3& direction) const;
 
     /// Direct light in luxel units, all lights. The generator only places samples inside their strata.
@@ -48,6 +48,7 @@ class DoubleTracer {
     /// Calls `visit` for triangles that the line may meet at t in [0, tMax], in any order, until it returns true.
     void visitCandidates(const dvec3& origin, const dvec3& direction, double tMax,
                          const std::function<bool(uint32_t triangle)>& visit) const;
+    Bounds boundDeformed(const WorldSurface& surface, const Material& material) const;
     dvec3 corner(uint32_t triangle, uint32_t k) const;
     bool intersect(uint32_t triangle, const dvec3& origin, const dvec3& direction, DoubleHit& hit) const;
     bool isCovered(const DoubleHit& hit) const;
@@ -65,6 +66,7 @@ class DoubleTracer {
     const MaterialLibrary& m_materials;
     const LightSet& m_lights;
     std::vector<Triangle> m_triangles;
+    std::vector<Bounds> m_deformed; ///< where deformed surfaces may be at any time
     std::unique_ptr<Embree> m_embree;
     double m_farQu = 0; ///< longer than any line inside the map
 };
