@@ -16,6 +16,8 @@ void TraceRenderer::drawWorldView(FrameGraph& graph, FrameTargets& targets, cons
     resources.pixels = graph.importBuffer("pixels", buffers.pixels);
     resources.irradiance = graph.importBuffer("irradiance", buffers.irradiance);
     resources.radiance = graph.importBuffer("radiance", buffers.radiance);
+    resources.means = graph.importBuffer("means", buffers.means);
+    resources.picture = graph.importBuffer("picture", buffers.picture);
     DenoiseResources denoise;
     if (buffers.denoise) denoise = importDenoise(graph, *buffers.denoise);
 

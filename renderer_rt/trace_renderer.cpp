@@ -132,13 +132,16 @@ void TraceRenderer::describeSettings(RtFrame& out) const {
     if (m_settings.rt_illumination) out.flags |= kFrameIllumination;
     if (m_settings.rt_softshadows) out.flags |= kFrameSoftShadows;
     if (m_settings.rt_antialiasing) out.flags |= kFrameAntialiasing;
+    if (m_settings.rt_tonemap == 0) out.flags |= kFrameClampLight;
+    out.exposure = m_settings.rt_exposure;
 }
 
 std::vector<uint32_t> TraceRenderer::settingsKey() const {
     std::vector<uint32_t> key;
     appendBits(key, std::array{m_settings.rt_illumination, m_settings.rt_cullLights, m_settings.rt_numRandomDL,
-                               m_settings.rt_softshadows, m_settings.rt_antialiasing, m_settings.rt_seed});
-    appendBits(key, m_settings.rt_ambient);
+                               m_settings.rt_softshadows, m_settings.rt_antialiasing, m_settings.rt_seed,
+                               m_settings.rt_tonemap});
+    appendBits(key, std::array{m_settings.rt_ambient, m_settings.rt_exposure});
     return key;
 }
 
@@ -174,6 +177,8 @@ const TracedView& TraceRenderer::prepareView(const FrameCommands& frame, const S
     view.frame.irradiance = buffers.irradiance.address();
     view.frame.lighting = buffers.denoise ? buffers.denoise->result().address() : view.frame.irradiance;
     view.frame.radiance = buffers.radiance.address();
+    view.frame.means = buffers.means.address();
+    view.frame.picture = buffers.picture.address();
     m_scene->finish(view);
     m_movingTriangleCount = view.movingTriangleCount;
     m_instanceCount = view.instanceCount;
@@ -237,11 +242,10 @@ void TraceRenderer::dropUnusedBuffers() {
 
 RtOutput TraceRenderer::describeOutput(const ViewBuffers& buffers, const VkRect2D& area) const {
     RtOutput output{};
-    output.radiance = buffers.shown().address();
+    output.picture = buffers.shown().address();
     output.corner = {static_cast<uint32_t>(area.offset.x), static_cast<uint32_t>(area.offset.y)};
     output.width = area.extent.width;
     output.curve = m_settings.rt_tonemap != 0 ? kCurveFilmic : kCurveClamp;
-    output.exposure = m_settings.rt_exposure;
     output.white = kFilmicWhite;
     return output;
 }

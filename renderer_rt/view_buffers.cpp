@@ -36,7 +36,9 @@ ViewBuffers::ViewBuffers(Device& device, const VkRect2D& viewArea)
     : area(viewArea)
     , pixels(makeViewBuffer(device, viewArea.extent, sizeof(RtPixel), "pixels"))
     , irradiance(makeViewBuffer(device, viewArea.extent, sizeof(vec4), "irradiance"))
-    , radiance(makeViewBuffer(device, viewArea.extent, sizeof(vec4), "radiance")) {}
+    , radiance(makeViewBuffer(device, viewArea.extent, sizeof(vec4), "radiance"))
+    , means(makeViewBuffer(device, viewArea.extent, sizeof(RtMean), "means"))
+    , picture(makeViewBuffer(device, viewArea.extent, sizeof(vec4), "picture")) {}
 
 TaaBuffers::TaaBuffers(Device& device, VkExtent2D extent)
     : history(makeViewBuffer(device, extent, sizeof(vec4), "taa history"))
@@ -97,7 +99,7 @@ RtDenoise describeDenoise(const ViewBuffers& buffers, VkDeviceAddress toCurrent,
 RtTaa describeTaa(const ViewBuffers& buffers, VkDeviceAddress toPrevious) {
     RtTaa table{};
     table.pixels = buffers.pixels.address();
-    table.radiance = buffers.radiance.address();
+    table.picture = buffers.picture.address();
     table.history = buffers.taa->history.address();
     table.previousHistory = buffers.taa->previousHistory.address();
     table.motionToPrevious = toPrevious;

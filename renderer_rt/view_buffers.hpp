@@ -39,7 +39,7 @@ struct TaaBuffers {
 
 struct ViewBuffers {
     VkRect2D area{}; ///< on the target
-    Buffer pixels, irradiance, radiance;
+    Buffer pixels, irradiance, radiance, means, picture;
     ViewMotion motion;
     std::unique_ptr<DenoiseBuffers> denoise; ///< null: no denoiser
     std::unique_ptr<TaaBuffers> taa;         ///< null: no temporal anti-aliasing
@@ -47,8 +47,8 @@ struct ViewBuffers {
     ViewBuffers(Device& device, const VkRect2D& viewArea);
     /// Makes or drops what is kept from frame to frame; what the last frame left becomes its history.
     void turnHistory(Device& device, bool denoised, bool antialiased);
-    /// Radiance as the picture shows it.
-    const Buffer& shown() const { return taa ? taa->history : radiance; }
+    /// What the output curve is put on.
+    const Buffer& shown() const { return taa ? taa->history : picture; }
 };
 
 /// The denoiser's table for the frame. The motion's tables are where `toCurrent` and `toPrevious` say.

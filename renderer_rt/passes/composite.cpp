@@ -9,6 +9,8 @@ void addComposite(FrameGraph& graph, ViewResources& resources, const ViewWork& w
             pass.read(resources.pixels, access::kComputeRead);
             pass.read(resources.lighting, access::kComputeRead);
             resources.radiance = pass.write(resources.radiance, access::kComputeWrite);
+            resources.means = pass.write(resources.means, access::kComputeWrite);
+            resources.picture = pass.write(resources.picture, access::kComputeWrite);
         },
         [work](PassContext& pass) { work.pipelines.dispatchComposite(pass.commands(), makeStageInput(pass, work)); });
 }

@@ -7,7 +7,7 @@ void addOutput(FrameGraph& graph, ViewResources& resources, FrameTargets& target
     graph.addPass(
         "output",
         [&](PassBuilder& pass) {
-            pass.read(resources.radiance, access::kFragmentRead);
+            pass.read(resources.picture, access::kFragmentRead);
             targets.color = pass.write(targets.color, access::kColorAttachment);
         },
         [work, output, color = targets.color](PassContext& pass) {

@@ -15,6 +15,8 @@ struct ViewResources {
     BufferId irradiance; ///< vec4[]
     BufferId lighting;   ///< vec4[]: irradiance, or what the denoiser made of it
     BufferId radiance;   ///< vec4[]: running mean, kept between frames
+    BufferId means;      ///< RtMean[], kept between frames
+    BufferId picture;    ///< vec4[]: exposed
 };
 
 /// What the passes of one view share while they record.

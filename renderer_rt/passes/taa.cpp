@@ -7,11 +7,11 @@ void addTaa(FrameGraph& graph, ViewResources& resources, TaaBuffers& buffers, co
     const BufferId history = graph.importBuffer("taa history", buffers.history);
     const BufferId previous = graph.importBuffer("taa previous history", buffers.previousHistory);
     const RtTaaPush push{buffers.table};
-    resources.radiance = graph.addPass(
+    resources.picture = graph.addPass(
         "taa",
         [&](PassBuilder& pass) {
             pass.read(resources.pixels, access::kComputeRead);
-            pass.read(resources.radiance, access::kComputeRead);
+            pass.read(resources.picture, access::kComputeRead);
             pass.read(previous, access::kComputeRead);
             return pass.write(history, access::kComputeWrite);
         },

@@ -6,7 +6,7 @@
 
 namespace q3rt {
 
-/// resources.radiance becomes the averaged picture.
+/// resources.picture becomes the averaged picture.
 void addTaa(FrameGraph& graph, ViewResources& resources, TaaBuffers& buffers, const ComputePipeline& pipeline,
             VkExtent2D extent);
 

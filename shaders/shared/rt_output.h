@@ -8,12 +8,12 @@ SHARED_CONST kCurveClamp = 0u;  // the engine's own clamp, hue kept
 SHARED_CONST kCurveFilmic = 1u; // shoulder; `white` maps to 1
 
 struct RtOutput {
-    SHARED_ADDRESS radiance; // vec4[], rows of `width`
+    SHARED_ADDRESS picture; // vec4[], rows of `width`
     SHARED_UVEC2 corner;     // of the view on the target, pixels
     uint width;
     uint curve;
-    float exposure; // factor
-    float white;    // radiance
+    float white; // radiance
+    uint reserved;
 };
 
 SHARED_END

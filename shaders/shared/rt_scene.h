@@ -164,6 +164,13 @@ SHARED_CONST kFrameGrid = 0x10u;
 SHARED_CONST kFrameSkySurfaces = 0x20u;
 SHARED_CONST kFrameAntialiasing = 0x40u;
 SHARED_CONST kFrameSharedJitter = 0x80u; // all rays at RtFrame::jitter of their pixels
+SHARED_CONST kFrameClampLight = 0x100u;  // the picture shows light as the engine shows a lightmap: at most 1, hue kept
+
+// Means over all samples so far, for a picture that clamps light and not its product with a texture.
+struct RtMean {
+    vec3 albedo;
+    vec3 lit; // A x L
+};
 
 struct RtFrame {
     SHARED_ADDRESS instances;
@@ -185,6 +192,8 @@ struct RtFrame {
     SHARED_ADDRESS irradiance; // vec4[]: traced L (1.0 = irradiance 63.75), one a pixel
     SHARED_ADDRESS lighting;   // vec4[]: L that the picture shows: `irradiance`, or what a denoiser made of it
     SHARED_ADDRESS radiance;   // vec4[]: mean radiance of all samples so far, one a pixel
+    SHARED_ADDRESS means;      // RtMean[]
+    SHARED_ADDRESS picture;    // vec4[]: what is shown of the means, exposed
     vec3 eye;
     uint flags; // kFrame*
     vec3 forward;
@@ -210,6 +219,8 @@ struct RtFrame {
     uint reflectionDepth; // rt_reflectionDepth: mirrors, portals and reflections one after the other
     vec3 forwardUnit;
     vec2 jitter; // in a pixel, [0, 1)
+    float exposure; // factor
+    uint reserved;
 };
 
 struct RtPush {

@@ -9,7 +9,7 @@ SHARED_FLOAT kTaaLimit = 24.0f;
 
 struct RtTaa {
     SHARED_ADDRESS pixels;           // RtPixel[]
-    SHARED_ADDRESS radiance;         // vec4[]: this frame's picture
+    SHARED_ADDRESS picture;          // vec4[]: this frame's, exposed
     SHARED_ADDRESS history;          // vec4[]: the result; w: frames in it
     SHARED_ADDRESS previousHistory;
     SHARED_ADDRESS motionToPrevious; // RtMotion[], by entity of this frame
