@@ -220,7 +220,6 @@ struct RtFrame {
     vec3 forwardUnit;
     vec2 jitter; // in a pixel, [0, 1)
     float exposure; // factor
-    uint reserved;
 };
 
 struct RtPush {
