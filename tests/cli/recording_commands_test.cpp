@@ -60,7 +60,6 @@ TEST(RecordingCommands, MissingAndDamagedFilesFailWithTheirName) {
     EXPECT_EQ(runQ3rt({"replay", damaged.string()}).exitCode, 1);
     EXPECT_TRUE(runQ3rt({"replay", damaged.string()}).saysInOneLine("damaged.q3t"));
     EXPECT_TRUE(runQ3rt({"replay", (folder / "absent.q3t").string()}).saysInOneLine("absent.q3t"));
-    EXPECT_TRUE(runQ3rt({"trade", "--map", "x"}).saysInOneLine("later version"));
 }
 
 TEST(RecordingCommands, WhatIsMissingIsNamed) {
