@@ -56,6 +56,8 @@ void TraceHarness::submit(const Camera& camera) {
         module.ClearScene();
         for (const refEntity_t& entity : m_entities)
             module.AddRefEntityToScene(&entity);
+        for (const Quad& quad : m_quads)
+            module.AddPolyToScene(quad.shader, 4, quad.vertices, 1);
         module.RenderScene(&view);
     });
 }

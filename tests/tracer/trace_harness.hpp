@@ -27,6 +27,13 @@ class TraceHarness {
     void loadMap(const std::string& name);
     /// Of every view drawn from now on.
     void setEntities(std::vector<refEntity_t> entities) { m_entities = std::move(entities); }
+    /// A quadrilateral as cgame sends it.
+    struct Quad {
+        qhandle_t shader = 0;
+        polyVert_t vertices[4] = {};
+    };
+    /// Of every view drawn from now on, in this order.
+    void setQuads(std::vector<Quad> quads) { m_quads = std::move(quads); }
     /// Draws the view `frames` times.
     void draw(const Camera& camera, int frames);
     /// The last of `frames` draws as shown.
@@ -40,6 +47,7 @@ class TraceHarness {
 
     HeadlessEngine m_engine;
     std::vector<refEntity_t> m_entities;
+    std::vector<Quad> m_quads;
     int m_width, m_height;
 };
 
