@@ -11,24 +11,6 @@ namespace {
 constexpr VkBufferUsageFlags kTreeUsage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
 
-struct BuiltTree {
-    Bvh bvh;
-    std::vector<BvhTriangle> triangles;
-};
-
-BuiltTree buildTree(std::span<const Vertex> vertices, std::span<const uint32_t> indices, bool opaque, bool lasting) {
-    std::vector<vec3> positions;
-    positions.reserve(indices.size());
-    for (const uint32_t index : indices)
-        positions.push_back(vertices[index].position);
-    const std::vector<Bounds> boxes = triangleBounds(positions);
-    BuiltTree built;
-    built.bvh = lasting ? buildSah(boxes) : buildMorton(boxes);
-    const std::vector<uint8_t> flags(opaque ? 0 : indices.size() / 3, 0);
-    built.triangles = leafTriangles(built.bvh, positions, flags);
-    return built;
-}
-
 Bounds transformBounds(const Bounds& bounds, const mat4& transform) {
     Bounds out;
     for (int corner = 0; corner < 8; ++corner)
@@ -47,12 +29,24 @@ bool isFinite(const mat4& m) {
 
 } // namespace
 
+TreeData buildTree(std::span<const Vertex> vertices, std::span<const uint32_t> indices, bool opaque, bool lasting) {
+    std::vector<vec3> positions;
+    positions.reserve(indices.size());
+    for (const uint32_t index : indices)
+        positions.push_back(vertices[index].position);
+    const std::vector<Bounds> boxes = triangleBounds(positions);
+    Bvh bvh = lasting ? buildSah(boxes) : buildMorton(boxes);
+    const std::vector<uint8_t> flags(opaque ? 0 : indices.size() / 3, 0);
+    std::vector<BvhTriangle> triangles = leafTriangles(bvh, positions, flags);
+    return {.nodes = std::move(bvh.nodes), .triangles = std::move(triangles), .bounds = bvh.bounds};
+}
+
 size_t StaticTrees::add(std::span<const Vertex> vertices, std::span<const uint32_t> indices, bool opaque) {
-    const BuiltTree built = buildTree(vertices, indices, opaque, true);
+    const TreeData built = buildTree(vertices, indices, opaque, true);
     m_trees.push_back({.nodes = m_nodeList.size() * sizeof(BvhNode),
                        .triangles = m_triangleList.size() * sizeof(BvhTriangle),
-                       .bounds = built.bvh.bounds});
-    m_nodeList.insert(m_nodeList.end(), built.bvh.nodes.begin(), built.bvh.nodes.end());
+                       .bounds = built.bounds});
+    m_nodeList.insert(m_nodeList.end(), built.nodes.begin(), built.nodes.end());
     m_triangleList.insert(m_triangleList.end(), built.triangles.begin(), built.triangles.end());
     return m_trees.size() - 1;
 }
@@ -73,10 +67,10 @@ void StaticTrees::upload(Device& device, Uploader& uploader) {
 
 TreeAddress sendMovingTree(GrowingBuffer& stream, std::span<const Vertex> vertices, std::span<const uint32_t> indices,
                            bool opaque) {
-    const BuiltTree built = buildTree(vertices, indices, opaque, false);
-    return {.nodes = stream.append(std::span<const BvhNode>(built.bvh.nodes)).address,
+    const TreeData built = buildTree(vertices, indices, opaque, false);
+    return {.nodes = stream.append(std::span<const BvhNode>(built.nodes)).address,
             .triangles = stream.append(std::span<const BvhTriangle>(built.triangles)).address,
-            .bounds = built.bvh.bounds};
+            .bounds = built.bounds};
 }
 
 SceneTree sendSceneTree(GrowingBuffer& stream, std::span<const TreeInstance> instances) {

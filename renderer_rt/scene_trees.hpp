@@ -17,6 +17,15 @@ struct TreeAddress {
     Bounds bounds; ///< model space
 };
 
+/// A tree on the CPU.
+struct TreeData {
+    std::vector<BvhNode> nodes;
+    std::vector<BvhTriangle> triangles;
+    Bounds bounds; ///< model space
+};
+/// `indices` absolute in `vertices`; triangles keep their numbers. A lasting tree is better and takes longer.
+TreeData buildTree(std::span<const Vertex> vertices, std::span<const uint32_t> indices, bool opaque, bool lasting);
+
 /// Trees that stay: gathered, then uploaded at once.
 class StaticTrees {
   public:

@@ -77,6 +77,9 @@ void TraceRenderer::printStats() {
                                   m_instanceCount, m_movingTriangleCount, m_sampleNumber + 1);
     for (const TimerRow& row : context().ring().timers().results())
         line += formatText(" %s %.2f ms", row.name.c_str(), row.ms);
+    for (size_t i = 0; i < kStructureClassCount; ++i)
+        line += formatText("%s %s %u surfaces %u triangles %u builds", i == 0 ? ";" : ",", kStructureClassNames[i],
+                           m_classCounts[i].surfaces, m_classCounts[i].triangles, m_classCounts[i].builds);
     engine().print(LogLevel::Info, line);
 }
 

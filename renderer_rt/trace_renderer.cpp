@@ -182,6 +182,7 @@ const TracedView& TraceRenderer::prepareView(const FrameCommands& frame, const S
     m_scene->finish(view);
     m_movingTriangleCount = view.movingTriangleCount;
     m_instanceCount = view.instanceCount;
+    m_classCounts = view.counts;
     return view;
 }
 
@@ -251,8 +252,14 @@ RtOutput TraceRenderer::describeOutput(const ViewBuffers& buffers, const VkRect2
 }
 
 std::string TraceRenderer::extraStats() const {
-    return formatText(",\"instances\":%u,\"moving_triangles\":%u,\"lights\":%zu", m_instanceCount,
-                      m_movingTriangleCount, m_scene && m_scene->hasWorld() ? m_scene->lights()->triangleCount() : 0);
+    std::string text =
+        formatText(",\"instances\":%u,\"moving_triangles\":%u,\"lights\":%zu,\"classes\":{", m_instanceCount,
+                   m_movingTriangleCount, m_scene && m_scene->hasWorld() ? m_scene->lights()->triangleCount() : 0);
+    for (size_t i = 0; i < kStructureClassCount; ++i)
+        text += formatText("%s\"%s\":{\"surfaces\":%u,\"triangles\":%u,\"builds\":%u}", i == 0 ? "" : ",",
+                           kStructureClassNames[i], m_classCounts[i].surfaces, m_classCounts[i].triangles,
+                           m_classCounts[i].builds);
+    return text + "}";
 }
 
 } // namespace q3rt

@@ -68,6 +68,7 @@ class TraceRenderer final : public GpuRenderer {
     std::string m_radianceFile;          ///< asked for by screenshotHDR
     int m_lastPrintMs = 0;
     uint32_t m_movingTriangleCount = 0, m_instanceCount = 0;
+    ClassCounts m_classCounts{}; ///< of the last traced view
 };
 
 } // namespace q3rt

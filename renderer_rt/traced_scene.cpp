@@ -25,6 +25,7 @@ void TracedScene::setContent(const MaterialLibrary& materials, const TextureLibr
     dropContent();
     m_stages = std::make_unique<StageTable>(materials, textures, 1.0f);
     m_builder = std::make_unique<ViewTableBuilder>(materials, *m_stages);
+    m_models = std::make_unique<ModelGeometry>(m_context.device(), m_backend);
 }
 
 void TracedScene::loadWorld(const World& world) {
@@ -40,6 +41,7 @@ void TracedScene::dropContent() {
     m_stages.reset();
     m_statics.reset();
     m_lights.reset();
+    m_models.reset();
     m_world = nullptr;
     m_tables.clear();
 }
@@ -106,7 +108,8 @@ void TracedScene::makeInstances(const ViewGeometry& geometry, TracedView& view) 
     std::vector<VkAccelerationStructureInstanceKHR> instances;
     for (size_t i = 0; i < m_tables.sources.size(); ++i) {
         const ViewTables::Source& source = m_tables.sources[i];
-        const AccelerationStructure& bottom = source.staticPart >= 0
+        const AccelerationStructure& bottom = source.modelPart ? source.modelPart->structure
+                                              : source.staticPart >= 0
                                                   ? m_statics->parts()[static_cast<size_t>(source.staticPart)].structure
                                                   : *m_dynamicStructures[static_cast<size_t>(source.dynamicPart)];
         const mat4& transform = geometry.entities[source.entity].worldFromModel;
@@ -131,7 +134,9 @@ void TracedScene::makeTrees(const ViewGeometry& geometry, TracedView& view) {
     for (size_t i = 0; i < m_tables.sources.size(); ++i) {
         const ViewTables::Source& source = m_tables.sources[i];
         TreeInstance instance;
-        if (source.staticPart >= 0) {
+        if (source.modelPart) {
+            instance.tree = source.modelPart->tree;
+        } else if (source.staticPart >= 0) {
             instance.tree = m_statics->parts()[static_cast<size_t>(source.staticPart)].tree;
         } else {
             const DynamicPart& part = m_tables.parts[static_cast<size_t>(source.dynamicPart)];
@@ -155,8 +160,13 @@ void TracedScene::makeTrees(const ViewGeometry& geometry, TracedView& view) {
 TracedView TracedScene::prepare(const ViewGeometry& geometry, std::span<const SceneLight> lights,
                                 const PortalScene& portals) {
     TracedView view;
-    m_builder->build(m_world, m_statics.get(), geometry, portals, m_tables);
+    m_builder->build(m_world, m_statics.get(), geometry, portals, *m_models, m_tables);
     resolveDynamic(geometry, view);
+    view.counts = m_tables.counts;
+    for (ModelPart* part : m_models->takeNew()) {
+        ++view.counts[static_cast<size_t>(StructureClass::StaticEntity)].builds;
+        if (usesStructures(m_backend)) view.builds.push_back({&part->structure, part->geometry});
+    }
     if (usesStructures(m_backend))
         makeInstances(geometry, view);
     else

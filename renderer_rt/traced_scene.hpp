@@ -24,6 +24,7 @@ struct TracedView {
     };
     std::vector<Build> builds;
     uint32_t movingTriangleCount = 0;
+    ClassCounts counts{};
 };
 
 class TracedScene {
@@ -67,6 +68,7 @@ class TracedScene {
     std::unique_ptr<ViewTableBuilder> m_builder;
     std::unique_ptr<StaticGeometry> m_statics;
     std::unique_ptr<WorldLights> m_lights;
+    std::unique_ptr<ModelGeometry> m_models;
     FrameStructures m_structures;
     GrowingBuffer m_stream;
     ViewTables m_tables;

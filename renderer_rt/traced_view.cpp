@@ -21,6 +21,16 @@ RtEntity makeEntity(const EntityRecord& record) {
     return out;
 }
 
+void count(ViewTables& out, StructureClass structureClass, uint32_t triangleCount) {
+    ClassCount& of = out.counts[static_cast<size_t>(structureClass)];
+    ++of.surfaces;
+    of.triangles += triangleCount;
+}
+
+StructureClass dynamicClass(const EntitySurface& surface) {
+    return surface.worldSurface >= 0 ? StructureClass::DynamicWorld : StructureClass::DynamicEntity;
+}
+
 } // namespace
 
 void ViewTables::clear() {
@@ -35,6 +45,7 @@ void ViewTables::clear() {
     portals.clear();
     hasLayers = hasNear = false;
     layerOrderCount = 0;
+    counts = {};
 }
 
 Visibility visibilityOf(uint32_t flags) {
@@ -105,8 +116,13 @@ void ViewTableBuilder::addStaticParts(const World& world, const StaticGeometry& 
         for (const uint32_t number : part.surfaces) {
             const WorldSurface& surface = world.surfaces[number];
             out.surfaces.push_back(makeSurface(surface.material, part.surfaceClass, surface.fog, record.stage, out));
-            out.surfaces.back().portal =
-                m_portals.findStatic(world, surface, m_materials.drawn(surface.material), record);
+            const Material& material = m_materials.drawn(surface.material);
+            out.surfaces.back().portal = m_portals.findStatic(world, surface, material, record);
+            count(out,
+                  entity != 0         ? StructureClass::StaticEntity
+                  : material.usesTime ? StructureClass::ChangingWorld
+                                      : StructureClass::StaticWorld,
+                  surface.indexCount / 3);
         }
         out.instances.push_back(instance);
         out.sources.push_back({.staticPart = static_cast<int>(p),
@@ -138,12 +154,36 @@ void ViewTableBuilder::appendTriangles(const ViewGeometry& geometry, DynamicPart
     part.triangleCount = (static_cast<uint32_t>(out.indices.size()) - part.firstIndex) / 3;
 }
 
-void ViewTableBuilder::addDynamicParts(const World* world, const ViewGeometry& geometry, ViewTables& out) {
+void ViewTableBuilder::addModelPart(const ViewGeometry& geometry, const EntitySurface& surface,
+                                    SurfaceClass surfaceClass, ModelGeometry& models, ViewTables& out) {
+    const EntityRecord& record = geometry.entities[surface.entity];
+    const uint8_t mask = instanceMask(surfaceClass, visibilityOf(record.flags));
+    if (mask == 0) return;
+    const ModelPart& part = models.find(surface.source, isOpaqueClass(surfaceClass), geometry.vertices,
+                                        std::span(geometry.indices).subspan(surface.firstIndex, surface.indexCount));
+    RtInstance instance{};
+    instance.vertices = part.geometry.vertices;
+    instance.indices = part.geometry.indices;
+    instance.surfaceOfTriangle = part.surfaceOfTriangle;
+    instance.firstSurface = static_cast<uint32_t>(out.surfaces.size());
+    instance.entity = surface.entity;
+    out.surfaces.push_back(makeSurface(surface.material, surfaceClass, surface.fog, record.stage, out));
+    out.instances.push_back(instance);
+    out.sources.push_back({.modelPart = &part, .entity = surface.entity, .surfaceClass = surfaceClass, .mask = mask});
+    count(out, StructureClass::StaticEntity, part.geometry.triangleCount);
+}
+
+void ViewTableBuilder::addDynamicParts(const World* world, const ViewGeometry& geometry, ModelGeometry& models,
+                                       ViewTables& out) {
     std::map<std::pair<uint32_t, SurfaceClass>, DynamicPart> groups;
     for (uint32_t s = 0; s < geometry.surfaces.size(); ++s) {
         const EntitySurface& surface = geometry.surfaces[s];
         const auto surfaceClass = classifySurface(m_materials.drawn(surface.material));
         if (!surfaceClass || surface.indexCount < 3) continue;
+        if (surface.source && surface.singleFrame && !surface.deformed) {
+            addModelPart(geometry, surface, *surfaceClass, models, out);
+            continue;
+        }
         DynamicPart& part = groups[{surface.entity, *surfaceClass}];
         part.entity = surface.entity;
         part.surfaceClass = *surfaceClass;
@@ -161,8 +201,10 @@ void ViewTableBuilder::addDynamicParts(const World* world, const ViewGeometry& g
             out.surfaces.push_back(makeSurface(surface.material, part.surfaceClass, surface.fog, record.stage, out));
             out.surfaces.back().portal =
                 m_portals.findMoving(world, geometry, surface, m_materials.drawn(surface.material));
+            count(out, dynamicClass(surface), surface.indexCount / 3);
         }
         appendTriangles(geometry, part, out);
+        ++out.counts[static_cast<size_t>(dynamicClass(geometry.surfaces[part.surfaces[0]]))].builds;
         instance.vertices = part.firstVertex * sizeof(Vertex);
         instance.indices = part.firstIndex * sizeof(uint32_t);
         instance.surfaceOfTriangle = part.firstIndex / 3 * sizeof(uint32_t);
@@ -190,7 +232,7 @@ void ViewTableBuilder::orderLayers(ViewTables& out) {
 }
 
 void ViewTableBuilder::build(const World* world, const StaticGeometry* statics, const ViewGeometry& geometry,
-                             const PortalScene& portals, ViewTables& out) {
+                             const PortalScene& portals, ModelGeometry& models, ViewTables& out) {
     out.clear();
     m_portals.begin(portals);
     m_layers.clear();
@@ -203,7 +245,7 @@ void ViewTableBuilder::build(const World* world, const StaticGeometry* statics, 
             if (model >= 0) addStaticParts(*world, *statics, geometry, e, model, out);
         }
     }
-    addDynamicParts(world, geometry, out);
+    addDynamicParts(world, geometry, models, out);
     out.portals = m_portals.table();
     orderLayers(out);
 }

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "gpu/acceleration_structure.hpp"
+#include "renderer_rt/class_counts.hpp"
+#include "renderer_rt/model_geometry.hpp"
 #include "renderer_rt/static_geometry.hpp"
 #include "renderer_rt/view_portals.hpp"
 #include "scene/entity_geometry.hpp"
@@ -27,9 +29,10 @@ struct ViewTables {
     std::vector<uint32_t> indices;           ///< of dynamic parts
     std::vector<uint32_t> surfaceOfTriangle; ///< of dynamic parts, parallel to indices / 3
     std::vector<DynamicPart> parts;
-    /// Instance i is built from staticPart[i], or from parts[dynamicPart[i]].
+    /// What instance i is made of: one of the three.
     struct Source {
         int staticPart = -1, dynamicPart = -1;
+        const ModelPart* modelPart = nullptr;
         uint32_t entity = 0;
         SurfaceClass surfaceClass = SurfaceClass::Solid;
         uint8_t mask = 0;
@@ -39,6 +42,7 @@ struct ViewTables {
     std::vector<RtPortal> portals;
     bool hasLayers = false, hasNear = false;
     uint32_t layerOrderCount = 0;
+    ClassCounts counts{};
     void clear();
 };
 
@@ -60,15 +64,17 @@ class ViewTableBuilder {
     ViewTableBuilder(const MaterialLibrary& materials, StageTable& stages)
         : m_materials(materials)
         , m_stages(stages) {}
-    /// `statics` may be null (no world). `worldTimeSeconds` is the view's shader time.
+    /// `statics` may be null (no world).
     void build(const World* world, const StaticGeometry* statics, const ViewGeometry& geometry,
-               const PortalScene& portals, ViewTables& out);
+               const PortalScene& portals, ModelGeometry& models, ViewTables& out);
     const MaterialLibrary& materials() const { return m_materials; }
 
   private:
     void addStaticParts(const World& world, const StaticGeometry& statics, const ViewGeometry& geometry,
                         uint32_t entity, int model, ViewTables& out);
-    void addDynamicParts(const World* world, const ViewGeometry& geometry, ViewTables& out);
+    void addDynamicParts(const World* world, const ViewGeometry& geometry, ModelGeometry& models, ViewTables& out);
+    void addModelPart(const ViewGeometry& geometry, const EntitySurface& surface, SurfaceClass surfaceClass,
+                      ModelGeometry& models, ViewTables& out);
     void appendTriangles(const ViewGeometry& geometry, DynamicPart& part, ViewTables& out);
     RtSurface makeSurface(MaterialId material, SurfaceClass surfaceClass, int fog, const StageInputs& inputs,
                           ViewTables& out);

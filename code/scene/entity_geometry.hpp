@@ -37,6 +37,7 @@ struct EntitySurface {
     const ModelSurface* source = nullptr;
     int frame = 0, oldFrame = 0; ///< of `source`, valid frame numbers
     float backLerp = 0;          ///< weight of oldFrame; 0 when the frames are equal
+    bool singleFrame = false;    ///< of a model with one frame: `source` alone says what it looks like, if not deformed
     bool deformed = false;       ///< vertices are not those of `source` at these frames: don't cache
 };
 

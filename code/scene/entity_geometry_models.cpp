@@ -59,6 +59,7 @@ void addMeshSurface(const ViewBuild& build, const SceneEntity& entity, const Mod
     EntitySurface& surface = openSurface(build, material, record);
     surface.fog = pose.fog;
     surface.source = &source;
+    surface.singleFrame = lod.md3.frames.size() == 1;
     surface.frame = pose.frame;
     surface.oldFrame = pose.oldFrame;
     surface.backLerp = pose.backLerp;
