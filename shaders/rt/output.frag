@@ -13,6 +13,7 @@ void main()
 {
     uvec2 pixel = uvec2(gl_FragCoord.xy) - push.corner;
     vec3 radiance = PictureTable(push.picture).at[pixel.y * push.width + pixel.x].rgb;
-    color = vec4(push.curve == kCurveFilmic ? reinhardKeepingHue(radiance, push.white) : clampKeepingHue(radiance),
-                 1.0);
+    // Light has been clamped with its hue kept; the sum of all layers is clamped channel by channel, as the engine's
+    // blending into bytes does: flames on flames become yellow, not orange.
+    color = vec4(push.curve == kCurveFilmic ? reinhardKeepingHue(radiance, push.white) : min(radiance, vec3(1.0)), 1.0);
 }
