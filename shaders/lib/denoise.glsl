@@ -72,10 +72,13 @@ const float kLuminanceSigmas = 4.0f;
 // Differences that no display of 8 bits shows, a quarter of its step, are none.
 const float kInvisibleLuminance = 1.0f / 1020.0f;
 
-// `variance`: of the difference.
-float luminanceWeight(float difference, float variance)
+// Both weights of a tap in one exponential: how many planes' widths and how many times the tolerated difference of
+// luminance it is away. `variance`: of the difference. The filter is bound by arithmetic: no root, no division here.
+float tapWeight(float planeDistance, float inverseFootprint, float difference, float variance)
 {
-    return exp(-abs(difference) / (kLuminanceSigmas * sqrt(variance) + kInvisibleLuminance));
+    const float invisible2 = kInvisibleLuminance * kInvisibleLuminance;
+    float tolerated2 = kLuminanceSigmas * kLuminanceSigmas * variance + invisible2;
+    return exp(-abs(planeDistance) * inverseFootprint - abs(difference) * inversesqrt(tolerated2));
 }
 
 // Variance of a mean of n samples from their moments; n - 1 because the mean is theirs. n >= 2.
@@ -94,13 +97,7 @@ float historyLoss(vec2 gradient)
 // Share of the new sample in the mean: 1/n while nothing changes, more where the history is wrong.
 float blendFactor(float historySamples, float loss) { return max(1.0f / (historySamples + 1.0f), loss); }
 
-// One row of the 5 x 5 kernel (B3 spline), by distance from the centre in taps.
-float splineKernel(int distance)
-{
-    return distance == 0 ? 0.375f : (distance == 1 || distance == -1) ? 0.25f : 0.0625f;
-}
-
-// The same of the 3 x 3 kernel.
+// One row of the 3 x 3 kernel, by distance from the centre in taps.
 float tentKernel(int distance) { return distance == 0 ? 0.5f : 0.25f; }
 
 #endif

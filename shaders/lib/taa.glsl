@@ -17,8 +17,10 @@ vec3 rgbFromYCoCg(vec3 c)
     return vec3(base + c.y, c.x + c.z, base - c.y);
 }
 
-// Half the size of the box of plausible colours, in standard deviations of the neighbourhood.
-const float kClipSigmas = 1.5f;
+// Half the size of the box of plausible colours, in standard deviations of the neighbourhood: where the picture stands
+// still, the jitter alone moves colours so far.
+const float kStillSigmas = 1.5f;
+const float kMovingSigmas = 1.0f;
 
 // `color` moved toward `mean` until it lies in the box mean +- extent.
 vec3 clipToBox(vec3 color, vec3 mean, vec3 extent)

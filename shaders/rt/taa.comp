@@ -83,8 +83,8 @@ vec4 sampleHistory(vec2 place)
     return max(sum, vec4(vec3(0.0), 1.0));
 }
 
-// What the pixel itself shows is always plausible: a still picture without noise passes unchanged.
-vec3 clipToNeighbours(ivec2 pixel, vec3 color, vec3 own)
+// In a still picture what the pixel itself shows is always plausible: without noise it passes unchanged.
+vec3 clipToNeighbours(ivec2 pixel, vec3 color, vec3 own, bool still)
 {
     vec3 first = vec3(0.0), second = vec3(0.0);
     for (int i = 0; i < 9; ++i) {
@@ -94,7 +94,7 @@ vec3 clipToNeighbours(ivec2 pixel, vec3 color, vec3 own)
         second += c * c / 9.0;
     }
     vec3 deviation = sqrt(max(second - first * first, vec3(0.0)));
-    vec3 extent = max(deviation * kClipSigmas, abs(yCoCgFromRgb(own) - first));
+    vec3 extent = still ? max(deviation * kStillSigmas, abs(yCoCgFromRgb(own) - first)) : deviation * kMovingSigmas;
     return max(rgbFromYCoCg(clipToBox(yCoCgFromRgb(color), first, extent)), vec3(0.0));
 }
 
@@ -112,8 +112,9 @@ void main()
     bool inside = all(greaterThanEqual(place, vec2(-0.5))) && all(lessThan(place, vec2(taa.size) - 0.5));
     if (taa.hasHistory != 0u && shift.known && inside) {
         vec4 history = sampleHistory(place);
-        float frames = min(history.w + 1.0, kTaaLimit);
-        result = vec4(mix(clipToNeighbours(pixel, history.rgb, radiance), radiance, 1.0 / frames), frames);
+        bool still = shift.pixels == vec2(0.0);
+        float frames = min(history.w + 1.0, still ? kTaaStillLimit : kTaaMovingLimit);
+        result = vec4(mix(clipToNeighbours(pixel, history.rgb, radiance, still), radiance, 1.0 / frames), frames);
     }
     ColorTable(taa.history).at[indexOf(pixel)] = result;
 }

@@ -4,8 +4,10 @@
 #include "rt_motion.h"
 SHARED_BEGIN
 
-// Frames that an unchanged pixel's mean spans at most.
-SHARED_FLOAT kTaaLimit = 24.0f;
+// Frames that a pixel's mean spans at most: of what stands still in the picture, and of what moves in it. What moves is
+// resampled in each frame and loses sharpness, and its old colours are less sure.
+SHARED_FLOAT kTaaStillLimit = 24.0f;
+SHARED_FLOAT kTaaMovingLimit = 4.0f;
 
 struct RtTaa {
     SHARED_ADDRESS pixels;           // RtPixel[]

@@ -95,15 +95,13 @@ TEST(Weights, AreOneAtHomeAndFall) {
     EXPECT_EQ(shader::normalWeight(1), 1);
     EXPECT_EQ(shader::normalWeight(-0.5f), 0);
     EXPECT_NEAR(shader::normalWeight(0.99f), std::pow(0.99, 128), 1e-5);
-    EXPECT_EQ(shader::luminanceWeight(0, 0), 1);
-    EXPECT_LT(shader::luminanceWeight(0.1f, 0), 1e-30f) << "without variance nothing is mixed";
-    EXPECT_NEAR(shader::luminanceWeight(2, 0.25f), std::exp(-1.0), 1e-3);
-    float spline = 0, tent = 0;
-    for (int i = -2; i <= 2; ++i)
-        spline += shader::splineKernel(i);
+    EXPECT_EQ(shader::tapWeight(0, 2, 0, 0), 1);
+    EXPECT_LT(shader::tapWeight(0, 2, 0.1f, 0), 1e-30f) << "without variance nothing is mixed";
+    EXPECT_NEAR(shader::tapWeight(0, 2, -2, 0.25f), std::exp(-1.0), 1e-3);
+    EXPECT_NEAR(shader::tapWeight(-0.5f, 2, 2, 0.25f), std::exp(-2.0), 1e-3);
+    float tent = 0;
     for (int i = -1; i <= 1; ++i)
         tent += shader::tentKernel(i);
-    EXPECT_EQ(spline, 1);
     EXPECT_EQ(tent, 1);
 }
 
