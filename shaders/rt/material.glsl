@@ -11,38 +11,54 @@ struct MaterialColor {
     vec3 through; // P
 };
 
-vec4 sampleUnit(TextureUnitState unit, vec2 st, vec2 stX, vec2 stY)
+// Stages are read where they are needed: a copy of one would hold its eight tcMods, few of which exist.
+#define stageAt(stage) StageTable(rtFrame.stages).at[stage]
+
+vec2 generateUnit(uint stage, uint unit, VertexIn vertex, vec3 eye)
 {
-    vec2 at = unit.clamped != 0u ? st : wrapCoordinates(st);
-    return textureGrad(textures[nonuniformEXT(unit.texture)], at, stX, stY);
+    TextureUnitState generator; // what generateCoordinates reads of it
+    generator.coord = stageAt(stage).unit[unit].coord;
+    if (generator.coord == kCoordVector) {
+        generator.vectorS = stageAt(stage).unit[unit].vectorS;
+        generator.vectorT = stageAt(stage).unit[unit].vectorT;
+    }
+    return generateCoordinates(generator, vertex, eye);
+}
+
+// Repeating textures take coordinates in [0, 1).
+vec2 wrapUnit(uint stage, uint unit, vec2 st)
+{
+    return stageAt(stage).unit[unit].clamped != 0u ? st : wrapCoordinates(st);
 }
 
 // A unit's texel with the footprint of a pixel: the coordinates of the neighbours' points go through the same chain.
-vec4 sampleFiltered(TextureUnitState unit, VertexIn vertex, VertexIn vertexX, VertexIn vertexY, vec3 eye)
+vec4 sampleFiltered(uint stage, uint unit, VertexIn vertex, VertexIn vertexX, VertexIn vertexY, vec3 eye)
 {
-    vec2 st = unitCoordinates(unit, vertex, eye);
-    return sampleUnit(unit, st, unitCoordinates(unit, vertexX, eye) - st, unitCoordinates(unit, vertexY, eye) - st);
-}
-
-// Part by part: copying whole stages would fetch their four tcMods for every pixel, and few stages have any.
-TextureUnitState loadUnit(StageTable stages, uint stage, uint unit)
-{
-    TextureUnitState result;
-    result.coord = stages.at[stage].unit[unit].coord;
-    result.texture = stages.at[stage].unit[unit].texture;
-    result.clamped = stages.at[stage].unit[unit].clamped;
-    result.isLightmap = stages.at[stage].unit[unit].isLightmap;
-    result.modCount = stages.at[stage].unit[unit].modCount;
-    if (result.coord == kCoordVector) {
-        result.vectorS = stages.at[stage].unit[unit].vectorS;
-        result.vectorT = stages.at[stage].unit[unit].vectorT;
+    vec2 st = generateUnit(stage, unit, vertex, eye);
+    vec2 stX = generateUnit(stage, unit, vertexX, eye);
+    vec2 stY = generateUnit(stage, unit, vertexY, eye);
+    uint count = stageAt(stage).unit[unit].modCount;
+    for (uint i = 0u; i < count; ++i) {
+        TexModState mod = stageAt(stage).unit[unit].mods[i];
+        st = applyTexMod(st, mod, vertex.position);
+        stX = applyTexMod(stX, mod, vertexX.position);
+        stY = applyTexMod(stY, mod, vertexY.position);
     }
-    for (uint i = 0u; i < kMaxTexMods; ++i)
-        if (i < result.modCount)
-            result.mods[i] = stages.at[stage].unit[unit].mods[i];
-    return result;
+    return textureGrad(textures[nonuniformEXT(stageAt(stage).unit[unit].texture)], wrapUnit(stage, unit, st), stX - st,
+                       stY - st);
 }
 
+// A unit's texel at the finest resolution.
+vec4 sampleFinest(uint stage, uint unit, VertexIn vertex, vec3 eye)
+{
+    vec2 st = generateUnit(stage, unit, vertex, eye);
+    uint count = stageAt(stage).unit[unit].modCount;
+    for (uint i = 0u; i < count; ++i)
+        st = applyTexMod(st, stageAt(stage).unit[unit].mods[i], vertex.position);
+    return textureLod(textures[nonuniformEXT(stageAt(stage).unit[unit].texture)], wrapUnit(stage, unit, st), 0.0);
+}
+
+// All but the texture units, of which the blend needs to know only whether the first is baked light.
 StageState loadStage(uint stage)
 {
     StageTable stages = StageTable(rtFrame.stages);
@@ -60,10 +76,7 @@ StageState loadStage(uint stage)
     result.portalRange = stages.at[stage].portalRange;
     result.depthEqual = stages.at[stage].depthEqual;
     result.depthWrite = stages.at[stage].depthWrite;
-    result.unit[0] = loadUnit(stages, stage, 0u);
-    result.unit[1].isLightmap = 0u;
-    if (result.combine != kCombineSingle)
-        result.unit[1] = loadUnit(stages, stage, 1u);
+    result.unit[0].isLightmap = stages.at[stage].unit[0].isLightmap;
     return result;
 }
 
@@ -94,11 +107,11 @@ AffineColor addStages(AffineColor color, uint first, uint count, VertexIn vertex
 {
     for (uint i = 0u; i < count; ++i) {
         StageState stage = loadStage(first + i);
-        if (reflects && stage.unit[0].coord == kCoordEnvironment)
+        if (reflects && stageAt(first + i).unit[0].coord == kCoordEnvironment)
             continue;
-        vec4 texel0 = sampleFiltered(stage.unit[0], vertex, vertexX, vertexY, entity.eye);
+        vec4 texel0 = sampleFiltered(first + i, 0u, vertex, vertexX, vertexY, entity.eye);
         vec4 texel1 = stage.combine != kCombineSingle
-                          ? sampleFiltered(stage.unit[1], vertex, vertexX, vertexY, entity.eye)
+                          ? sampleFiltered(first + i, 1u, vertex, vertexX, vertexY, entity.eye)
                           : vec4(1.0);
         vec4 generated = fadeColorInFog(stageColor(stage, vertex, entity), stage.fogFade, density);
         color = addStage(color, stage, generated, texel0, texel1);
@@ -161,12 +174,10 @@ bool isCovered(SceneTriangle triangle, RtSurface surface, vec2 barycentric)
         StageState stage = loadStage(surface.firstStage + i);
         if (stage.blended != 0u || stage.depthEqual != 0u)
             continue;
-        vec4 texel0 = sampleUnit(stage.unit[0],
-                                 unitCoordinates(stage.unit[0], vertex, entity.eye), vec2(0.0), vec2(0.0));
-        vec4 texel1 = vec4(1.0);
-        if (stage.combine != kCombineSingle)
-            texel1 = sampleUnit(stage.unit[1],
-                                unitCoordinates(stage.unit[1], vertex, entity.eye), vec2(0.0), vec2(0.0));
+        vec4 texel0 = sampleFinest(surface.firstStage + i, 0u, vertex, entity.eye);
+        vec4 texel1 = stage.combine != kCombineSingle
+                          ? sampleFinest(surface.firstStage + i, 1u, vertex, entity.eye)
+                          : vec4(1.0);
         float alpha = combineTexels(stage.combine, stageColor(stage, vertex, entity), texel0, texel1).a;
         if (passesAlphaTest(stage.alphaTest, alpha))
             return true;
