@@ -181,7 +181,11 @@ TracedView TracedScene::prepare(const ViewGeometry& geometry, std::span<const Sc
     frame.stages = send(m_stages->states());
     sendFogs(frame);
     sendLights(lights, frame);
-    if (m_lights) m_lights->describe(frame);
+    if (m_lights) {
+        m_lights->describe(frame);
+        const std::vector<RtTriangleLight> moved = m_lights->moveTriangles(geometry);
+        if (!moved.empty()) frame.triangleLights = send(moved);
+    }
     if (m_tables.hasLayers) frame.flags |= kFrameLayers;
     if (m_tables.hasNear) frame.flags |= kFrameNearEntities;
     if (m_tables.skies.size() > 1) frame.flags |= kFrameSkySurfaces;

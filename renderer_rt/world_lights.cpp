@@ -159,11 +159,22 @@ LightTables buildLightTables(const World& world, const LightSet& lights, const s
     return tables;
 }
 
+TriangleLight moveLight(const TriangleLight& light, const mat4& worldFromModel) {
+    TriangleLight moved = light;
+    for (vec3& corner : moved.corner)
+        corner = vec3(worldFromModel * vec4(corner, 1.0f));
+    moved.normal = mat3(worldFromModel) * light.normal;
+    return moved;
+}
+
 WorldLights::WorldLights(Device& device, Uploader& uploader, const World& world, const MaterialLibrary& materials) {
     const LightSet lights = extractLights(world, materials);
     LightTables tables = buildLightTables(world, lights, findSkyClusters(world, materials));
     explainGrid(world, materials, tables);
     m_others = tables.others;
+    for (size_t i = 0; i < lights.triangles.size(); ++i)
+        if (lights.triangles[i].bspModel != 0) m_ofMovers.emplace_back(i, lights.triangles[i]);
+    if (!m_ofMovers.empty()) m_resting = tables.triangles;
     m_triangles = makeTable(device, uploader, tables.triangles, "triangle lights");
     m_rows = makeTable(device, uploader, tables.rows, "light rows");
     m_indices = makeTable(device, uploader, tables.indices, "light indices");
@@ -176,6 +187,19 @@ WorldLights::WorldLights(Device& device, Uploader& uploader, const World& world,
     m_gridCellSize = world.grid.cellSize;
     m_gridCounts = world.grid.empty() ? ivec3(0) : world.grid.counts;
     uploader.flush();
+}
+
+std::vector<RtTriangleLight> WorldLights::moveTriangles(const ViewGeometry& geometry) const {
+    std::vector<RtTriangleLight> moved;
+    for (const auto& [index, light] : m_ofMovers) {
+        const auto model = static_cast<size_t>(light.bspModel);
+        const uint32_t record = model < geometry.recordOfInlineModel.size() ? geometry.recordOfInlineModel[model] : 0;
+        // A mover that the view doesn't hold is taken to be where the map has it.
+        if (record == 0 || geometry.entities[record].worldFromModel == mat4(1.0f)) continue;
+        if (moved.empty()) moved = m_resting;
+        moved[index] = makeTriangleLight(moveLight(light, geometry.entities[record].worldFromModel));
+    }
+    return moved;
 }
 
 void WorldLights::describe(RtFrame& frame) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gpu/uploader.hpp"
+#include "scene/entity_geometry.hpp"
 #include "scene/lights.hpp"
 #include "shaders/shared/rt_scene.h"
 
@@ -28,11 +29,16 @@ std::vector<bool> findSkyClusters(const World& world, const MaterialLibrary& mat
 /// A dynamic light of the game as a sphere (units: shaders/shared/constants.h).
 RtLight makeDynamicLight(const vec3& origin, float radiusQu, const vec3& color);
 
+/// A light of a mover where the mover is. Movers are rigid.
+TriangleLight moveLight(const TriangleLight& light, const mat4& worldFromModel);
+
 class WorldLights {
   public:
     WorldLights(Device& device, Uploader& uploader, const World& world, const MaterialLibrary& materials);
     /// Fills the frame's light addresses and counts, all but `lights` (see others()).
     void describe(RtFrame& frame) const;
+    /// All triangle lights, those of movers where the view has them; empty if all are where describe() says.
+    std::vector<RtTriangleLight> moveTriangles(const ViewGeometry& geometry) const;
     const std::vector<RtLight>& others() const { return m_others; }
     size_t triangleCount() const { return m_triangleCount; }
     size_t rowEntryCount() const { return m_rowEntryCount; }
@@ -40,6 +46,8 @@ class WorldLights {
 
   private:
     std::vector<RtLight> m_others;
+    std::vector<RtTriangleLight> m_resting;                   ///< all triangle lights; kept if movers have some
+    std::vector<std::pair<size_t, TriangleLight>> m_ofMovers; ///< by index
     Buffer m_triangles, m_rows, m_indices, m_nodes, m_grid;
     size_t m_triangleCount = 0, m_rowEntryCount = 0;
     uint32_t m_clusterCount = 0;
