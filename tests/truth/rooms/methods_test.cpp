@@ -82,7 +82,7 @@ TEST(Methods, ShowTheSameCorridor) {
 TEST(Methods, ShowTheSameFan) {
     Q3RT_OPEN_GAME_DATA_OR_SKIP(files);
     MethodPictures fan(*files, "fan", {.eye = {-736, 0, 122}, .pitch = -5, .yaw = 0}, 64, 48);
-    fan.check({"0", "0", "16", 6});
+    fan.check({"0", "0", "16", 9});
     for (const Method& method : {Method{"1", "1", "16", 160}, {"1", "4", "16", 48}})
         fan.check(method);
 }

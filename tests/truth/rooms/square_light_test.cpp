@@ -87,7 +87,7 @@ Comparison compareWithClosedForm(const MeasuredPicture& picture) {
 MeasuredPicture measureRoom(FileSource& files, const char* backend) {
     TraceHarness harness(files, Q3RT_BUILD_DIR "/renderer_rt_x86_64.so", kWidth, kHeight);
     prepareHarness(harness, squareLightRoom::kName, {{"rt_backend", backend}, {"rt_numRandomDL", "64"}});
-    return measurePicture(harness, kCamera, 8, 16);
+    return measurePicture(harness, kCamera, 8, 12);
 }
 
 TEST(SquareLightRoom, EveryPixelIsTheClosedFormOnEveryBackEnd) {
