@@ -27,7 +27,8 @@ void TraceRenderer::drawWorldView(FrameGraph& graph, FrameTargets& targets, cons
     addDirect(graph, resources, work);
     if (buffers.denoise) addDenoise(graph, resources, denoise, describeDenoiseWork(buffers));
     addComposite(graph, resources, work);
-    if (buffers.taa) addTaa(graph, resources, *buffers.taa, m_taaPipeline, area->extent);
+    if (buffers.taa)
+        addTaa(graph, resources, *buffers.taa, m_taaPipeline, denoise.gradients[kGradientLevels & 1], area->extent);
     addOutput(graph, resources, targets, work, describeOutput(buffers, *area));
 }
 

@@ -106,7 +106,11 @@ RtTaa describeTaa(const ViewBuffers& buffers, VkDeviceAddress toPrevious) {
     table.camera = buffers.motion.current().camera;
     table.previousCamera = buffers.motion.previous().camera;
     table.size = {buffers.area.extent.width, buffers.area.extent.height};
+    const VkExtent2D strata = strataOf(buffers.area.extent);
+    table.strata = {strata.width, strata.height};
     table.hasHistory = buffers.motion.isContinuous() ? 1 : 0;
+    if (buffers.denoise && buffers.motion.isContinuous())
+        table.gradients = buffers.denoise->gradients[kGradientLevels & 1].address();
     return table;
 }
 

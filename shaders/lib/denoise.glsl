@@ -85,7 +85,7 @@ float tapWeight(float planeDistance, float inverseFootprint, float difference, f
 float varianceOfMean(vec2 moments, float n) { return max(moments.y - moments.x * moments.x, 0.0f) / (n - 1.0f); }
 
 // Relative changes from this on say that nothing of the old light is left to use.
-const float kFullChange = 0.25f;
+const float kFullChange = 0.1f;
 
 // How much of the history is wrong: A-SVGF, equation 4, steeper. A gradient of an unchanged point is exactly 0, so no
 // steady light loses history by it.

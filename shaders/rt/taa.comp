@@ -3,9 +3,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "rt/extensions.glsl"
+#include "lib/denoise.glsl"
 #include "lib/ray.glsl"
 #include "lib/taa.glsl"
 #include "rt/motion.glsl"
+#include "shared/rt_denoise.h"
 #include "shared/rt_taa.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -13,6 +15,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer TaaTable { RtTaa value; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer PixelTable { RtPixel at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer ColorTable { vec4 at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer PairTable { vec2 at[]; };
 layout(push_constant, scalar) uniform Push { RtTaaPush push; };
 
 #define taa TaaTable(push.taa).value
@@ -98,6 +101,15 @@ vec3 clipToNeighbours(ivec2 pixel, vec3 color, vec3 own, bool still)
     return max(rgbFromYCoCg(clipToBox(yCoCgFromRgb(color), first, extent)), vec3(0.0));
 }
 
+// The part of the old picture that the denoiser knows to be lit otherwise. Small changes pass the clipping.
+float lightLoss(uvec2 pixel)
+{
+    if (taa.gradients == uvec2(0u))
+        return 0.0;
+    uvec2 stratum = pixel / kStratumPixels;
+    return historyLoss(PairTable(taa.gradients).at[stratum.y * taa.strata.x + stratum.x]);
+}
+
 void main()
 {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -113,8 +125,9 @@ void main()
     if (taa.hasHistory != 0u && shift.known && inside) {
         vec4 history = sampleHistory(place);
         bool still = shift.pixels == vec2(0.0);
-        float frames = min(history.w + 1.0, still ? kTaaStillLimit : kTaaMovingLimit);
-        result = vec4(mix(clipToNeighbours(pixel, history.rgb, radiance, still), radiance, 1.0 / frames), frames);
+        float kept = min(history.w, (still ? kTaaStillLimit : kTaaMovingLimit) - 1.0);
+        float share = blendFactor(kept, lightLoss(uvec2(pixel)));
+        result = vec4(mix(clipToNeighbours(pixel, history.rgb, radiance, still), radiance, share), 1.0 / share);
     }
     ColorTable(taa.history).at[indexOf(pixel)] = result;
 }

@@ -15,9 +15,11 @@ struct RtTaa {
     SHARED_ADDRESS history;          // vec4[]: the result; w: frames in it
     SHARED_ADDRESS previousHistory;
     SHARED_ADDRESS motionToPrevious; // RtMotion[], by entity of this frame
+    SHARED_ADDRESS gradients;        // vec2[], a stratum: the denoiser's filtered change of light; 0: there is none
     RtCamera camera;
     RtCamera previousCamera;
     SHARED_UVEC2 size; // pixels
+    SHARED_UVEC2 strata;
     uint hasHistory;   // previousHistory holds the frame before
     uint reserved;
 };

@@ -40,18 +40,23 @@ constexpr int kWidth = 48, kHeight = 36; ///< pixels
 const Camera kCamera{.eye = {-200, -180, 100}, .pitch = 10, .yaw = 40};
 const Camera kFarCamera{.eye = {220, 190, 40}, .pitch = 0, .yaw = 200};
 
+const TraceHarness::Light kDynamicLight{.origin = {-60, -60, 80}, .radius = 300};
+
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 class DenoisedRoomTest : public testing::Test {
   protected:
-    /// Radiance of the last of these frames. A module at a time: two would share the loaded library.
-    FloatImage render(const Settings& settings, const std::vector<Camera>& frames) {
+    /// Radiance of the last of these frames; the first `litCount` of them have a dynamic light. A module at a time: two
+    /// would share the loaded library.
+    FloatImage render(const Settings& settings, const std::vector<Camera>& frames, size_t litCount = 0) {
         TraceHarness harness(m_game, Q3RT_BUILD_DIR "/renderer_rt_x86_64.so", kWidth, kHeight);
         for (const auto& [name, value] : settings)
             harness.set(name, value);
         harness.loadMap(std::string("maps/") + squareLightRoom::kName + ".bsp");
-        for (size_t i = 0; i + 1 < frames.size(); ++i)
-            harness.draw(frames[i], 1);
+        for (size_t i = 0; i < frames.size(); ++i) {
+            harness.setLights(std::vector<TraceHarness::Light>(i < litCount ? 1 : 0, kDynamicLight));
+            if (i + 1 < frames.size()) harness.draw(frames[i], 1);
+        }
         return harness.radiance(frames.back(), 1);
     }
     TestGame m_game;
@@ -99,6 +104,18 @@ TEST_F(DenoisedRoomTest, ACutLeavesNothingOfTheOldView) {
     steady.push_back(kFarCamera);
     moved.push_back(kFarCamera);
     EXPECT_EQ(render({}, steady).rgb, render({}, moved).rgb);
+}
+
+TEST_F(DenoisedRoomTest, ADynamicLightLeavesNoTrail) {
+    constexpr size_t kLit = 20, kDark = 4;
+    const std::vector<Camera> all(kLit + kDark, kCamera), lit(kLit, kCamera);
+    const double without = meanOf(render({}, all)), with = meanOf(render({}, lit, kLit));
+    const double after = meanOf(render({}, all, kLit));
+    const double leftOver = (after - without) / (with - without);
+    EXPECT_GT(with, 1.1 * without) << "the light shows";
+    EXPECT_LE(std::abs(leftOver), 0.05);
+    std::printf("of a dynamic light that adds %.0f %%, %.2f %% are left after %zu frames\n", 100 * (with / without - 1),
+                100 * leftOver, kDark);
 }
 
 TEST_F(DenoisedRoomTest, WhatIsOffLeavesNoTrace) {

@@ -58,6 +58,8 @@ void TraceHarness::submit(const Camera& camera) {
             module.AddRefEntityToScene(&entity);
         for (const Quad& quad : m_quads)
             module.AddPolyToScene(quad.shader, 4, quad.vertices, 1);
+        for (const Light& light : m_lights)
+            module.AddLightToScene(light.origin, light.radius, 1, 1, 1);
         module.RenderScene(&view);
     });
 }

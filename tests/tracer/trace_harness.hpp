@@ -34,6 +34,13 @@ class TraceHarness {
     };
     /// Of every view drawn from now on, in this order.
     void setQuads(std::vector<Quad> quads) { m_quads = std::move(quads); }
+    /// A white dynamic light; qu.
+    struct Light {
+        vec3_t origin = {};
+        float radius = 0;
+    };
+    /// Of every view drawn from now on.
+    void setLights(std::vector<Light> lights) { m_lights = std::move(lights); }
     /// Draws the view `frames` times.
     void draw(const Camera& camera, int frames);
     /// The last of `frames` draws as shown.
@@ -48,6 +55,7 @@ class TraceHarness {
     HeadlessEngine m_engine;
     std::vector<refEntity_t> m_entities;
     std::vector<Quad> m_quads;
+    std::vector<Light> m_lights;
     int m_width, m_height;
 };
 
