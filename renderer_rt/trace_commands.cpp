@@ -57,7 +57,7 @@ void TraceRenderer::onGpuFrameEnd() {
 
 void TraceRenderer::writeRadiance(const std::string& file) {
     const VkExtent2D extent = m_lastBuffers->area.extent;
-    const std::vector<std::byte> bytes = readBuffer(context().device(), m_lastBuffers->shown());
+    const std::vector<std::byte> bytes = readBuffer(context().device(), m_lastBuffers->radiance);
     std::vector<float> rgb;
     rgb.reserve(size_t{3} * extent.width * extent.height);
     for (size_t i = 0; i < size_t{extent.width} * extent.height; ++i) {
