@@ -46,18 +46,27 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 
 class DenoisedRoomTest : public testing::Test {
   protected:
-    /// Radiance of the last of these frames; the first `litCount` of them have a dynamic light. A module at a time: two
-    /// would share the loaded library.
-    FloatImage render(const Settings& settings, const std::vector<Camera>& frames, size_t litCount = 0) {
-        TraceHarness harness(m_game, Q3RT_BUILD_DIR "/renderer_rt_x86_64.so", kWidth, kHeight);
+    /// Draws all but the last of these frames; the first `litCount` of all have a dynamic light. A module at a time:
+    /// two would share the loaded library.
+    std::unique_ptr<TraceHarness> drawMost(const Settings& settings, const std::vector<Camera>& frames,
+                                           size_t litCount = 0) {
+        auto harness = std::make_unique<TraceHarness>(m_game, Q3RT_BUILD_DIR "/renderer_rt_x86_64.so", kWidth, kHeight);
         for (const auto& [name, value] : settings)
-            harness.set(name, value);
-        harness.loadMap(std::string("maps/") + squareLightRoom::kName + ".bsp");
+            harness->set(name, value);
+        harness->loadMap(std::string("maps/") + squareLightRoom::kName + ".bsp");
         for (size_t i = 0; i < frames.size(); ++i) {
-            harness.setLights(std::vector<TraceHarness::Light>(i < litCount ? 1 : 0, kDynamicLight));
-            if (i + 1 < frames.size()) harness.draw(frames[i], 1);
+            harness->setLights(std::vector<TraceHarness::Light>(i < litCount ? 1 : 0, kDynamicLight));
+            if (i + 1 < frames.size()) harness->draw(frames[i], 1);
         }
-        return harness.radiance(frames.back(), 1);
+        return harness;
+    }
+    /// Radiance of the last frame: denoised, without anti-aliasing.
+    FloatImage render(const Settings& settings, const std::vector<Camera>& frames) {
+        return drawMost(settings, frames)->radiance(frames.back(), 1);
+    }
+    /// The last frame as it is shown.
+    HostFrame show(const Settings& settings, const std::vector<Camera>& frames, size_t litCount = 0) {
+        return drawMost(settings, frames, litCount)->picture(frames.back(), 1);
     }
     TestGame m_game;
 };
@@ -67,6 +76,13 @@ double meanOf(const FloatImage& image) {
     for (const float value : image.rgb)
         sum += value;
     return sum / static_cast<double>(image.rgb.size());
+}
+
+double meanOf(const HostFrame& picture) {
+    double sum = 0;
+    for (const uint8_t value : picture.rgb)
+        sum += value;
+    return sum / static_cast<double>(picture.rgb.size());
 }
 
 double errorOf(const FloatImage& image, const FloatImage& reference) {
@@ -94,7 +110,7 @@ TEST_F(DenoisedRoomTest, FixedSeedRepeatsBitForBit) {
         camera.yaw += static_cast<float>(i);
     }
     const Settings settings{{"rt_antialiasing", "1"}};
-    EXPECT_EQ(render(settings, path).rgb, render(settings, path).rgb);
+    EXPECT_EQ(show(settings, path).rgb, show(settings, path).rgb);
 }
 
 TEST_F(DenoisedRoomTest, ACutLeavesNothingOfTheOldView) {
@@ -103,14 +119,14 @@ TEST_F(DenoisedRoomTest, ACutLeavesNothingOfTheOldView) {
     moved.insert(moved.end(), 3, kCamera);
     steady.push_back(kFarCamera);
     moved.push_back(kFarCamera);
-    EXPECT_EQ(render({}, steady).rgb, render({}, moved).rgb);
+    EXPECT_EQ(show({}, steady).rgb, show({}, moved).rgb);
 }
 
 TEST_F(DenoisedRoomTest, ADynamicLightLeavesNoTrail) {
     constexpr size_t kLit = 20, kDark = 4;
     const std::vector<Camera> all(kLit + kDark, kCamera), lit(kLit, kCamera);
-    const double without = meanOf(render({}, all)), with = meanOf(render({}, lit, kLit));
-    const double after = meanOf(render({}, all, kLit));
+    const double without = meanOf(show({}, all)), with = meanOf(show({}, lit, kLit));
+    const double after = meanOf(show({}, all, kLit));
     const double leftOver = (after - without) / (with - without);
     EXPECT_GT(with, 1.1 * without) << "the light shows";
     EXPECT_LE(std::abs(leftOver), 0.05);
