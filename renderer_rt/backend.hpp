@@ -14,8 +14,11 @@ enum class Backend {
 };
 const char* nameOf(Backend backend);
 
-/// The back end for rt_backend on this device. Throws UsageError or DeviceError with the remedy if there is none.
+/// The back end for rt_backend on this device; for auto, what is likely the fastest.
+/// Throws UsageError or DeviceError with the remedy if there is none.
 Backend chooseBackend(std::string_view wanted, const Capabilities& capabilities);
+
+bool isAvailable(Backend backend, const Capabilities& capabilities);
 
 /// Do the driver's acceleration structures hold the scene?
 inline bool usesStructures(Backend backend) { return backend != Backend::Compute; }

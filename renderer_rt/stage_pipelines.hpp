@@ -28,6 +28,8 @@ struct StageInput {
 
 class StagePipelines {
   public:
+    /// Of all back ends' stages: what was measured with other shaders is out of date.
+    static uint64_t hashOfCode();
     StagePipelines(Device& device, Backend backend, VkDescriptorSetLayout textures);
     void dispatch(VkCommandBuffer commands, TraceStage stage, const StageInput& input) const;
     void dispatchComposite(VkCommandBuffer commands, const StageInput& input) const;

@@ -1,6 +1,7 @@
 // What the ray tracer adds around the frame: warming at load, the statistics line, radiance to a file.
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 
 #include "base/error.hpp"
@@ -8,6 +9,7 @@
 #include "formats/image.hpp"
 #include "gpu/device.hpp"
 #include "gpu/readback.hpp"
+#include "renderer_rt/calibration.hpp"
 #include "renderer_rt/trace_renderer.hpp"
 
 namespace q3rt {
@@ -15,7 +17,6 @@ namespace q3rt {
 namespace {
 
 constexpr int kStatsIntervalMs = 1000;
-constexpr VkExtent2D kWarmExtent{8, 8}; ///< pixels: enough to make the driver compile
 
 /// The engine's commands are plain functions: the one renderer of this module.
 TraceRenderer* currentRenderer = nullptr;
@@ -73,8 +74,8 @@ void TraceRenderer::printStats() {
     const int now = engine().milliseconds();
     if (now - m_lastPrintMs < kStatsIntervalMs) return;
     m_lastPrintMs = now;
-    std::string line = formatText("rt: %s, %u instances, %u moving triangles, %u samples;", backendName(),
-                                  m_instanceCount, m_movingTriangleCount, m_sampleNumber + 1);
+    std::string line = formatText("rt: %s (%s), %u instances, %u moving triangles, %u samples;", backendName(),
+                                  m_backendReason.c_str(), m_instanceCount, m_movingTriangleCount, m_sampleNumber + 1);
     for (const TimerRow& row : context().ring().timers().results())
         line += formatText(" %s %.2f ms", row.name.c_str(), row.ms);
     for (size_t i = 0; i < kStructureClassCount; ++i)
@@ -84,17 +85,15 @@ void TraceRenderer::printStats() {
 }
 
 /// lavapipe compiles a pipeline at its first dispatch: one frame of a few pixels moves that to the load.
-void TraceRenderer::warmPipelines() {
+double TraceRenderer::runStill(VkExtent2D extent, bool filters) {
     m_scene->beginFrame();
     FrameCommands frame;
-    SceneView scene;
-    scene.width = static_cast<int>(kWarmExtent.width);
-    scene.height = static_cast<int>(kWarmExtent.height);
-    scene.view.origin = world()->bounds.empty() ? vec3(0.0f) : (world()->bounds.mins + world()->bounds.maxs) * 0.5f;
+    const SceneView scene = stillOf(*world(), extent);
     m_views.clear();
-    ViewBuffers buffers(context().device(), {{0, 0}, kWarmExtent});
+    ViewBuffers buffers(context().device(), {{0, 0}, extent});
     const TracedView& view = prepareView(frame, scene, buffers);
     DescriptorArena arena(context().device());
+    const auto start = std::chrono::steady_clock::now();
     context().device().submitAndWait([&](VkCommandBuffer commands) {
         if (view.top) m_scene->recordBuilds(commands, view);
         StageInput input;
@@ -103,18 +102,20 @@ void TraceRenderer::warmPipelines() {
             input.structures =
                 arena.make(m_pipelines->structureLayout(), {bindAccelerationStructure(0, view.top->handle())});
         input.push = {view.frameSlice.address};
-        input.extent = kWarmExtent;
+        input.extent = extent;
         m_pipelines->warm(commands, input);
-        if (buffers.denoise) m_denoisePipelines->warm(commands);
-        if (buffers.taa) {
+        if (filters && buffers.denoise) m_denoisePipelines->warm(commands);
+        if (filters && buffers.taa) {
             m_taaPipeline.bind(commands);
             m_taaPipeline.push(commands, RtTaaPush{});
             m_taaPipeline.warmUp(commands);
         }
     });
+    const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
     m_views.clear();
     m_lastViewKey.clear();
     m_frameNumber = 0;
+    return taken.count();
 }
 
 } // namespace q3rt

@@ -6,7 +6,9 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "base/measured_choices.hpp"
 #include "gpu/device.hpp"
+#include "renderer_rt/calibration.hpp"
 #include "spirv/rt_taa_comp.hpp"
 
 namespace q3rt {
@@ -55,15 +57,35 @@ const char* TraceRenderer::backendName() const {
 }
 
 void TraceRenderer::onDeviceCreated() {
-    Device& device = context().device();
-    const Backend backend = chooseBackend(m_settings.rt_backend, device.capabilities());
-    m_pipelines = std::make_unique<StagePipelines>(device, backend, context().textures().layout());
+    const Capabilities& can = context().device().capabilities();
+    Backend backend = chooseBackend(m_settings.rt_backend, can);
+    m_backendReason = "as set";
+    m_calibrationKey.clear();
+    if (m_settings.rt_backend == "auto") {
+        const std::string key = calibrationKey(can);
+        if (const auto known = findMeasuredChoice(measuredChoicesFile(), key)) {
+            backend = chooseBackend(known->choice, can);
+            m_backendReason = "measured before: " + known->reason;
+        } else {
+            m_calibrationKey = key;
+        }
+    }
+    useBackend(backend);
+}
+
+void TraceRenderer::useBackend(Backend backend) {
+    m_scene.reset();
+    m_pipelines = std::make_unique<StagePipelines>(context().device(), backend, context().textures().layout());
     m_scene = std::make_unique<TracedScene>(context(), backend);
 }
 
-void TraceRenderer::onGpuWorldLoaded() {
+void TraceRenderer::loadScene() {
     m_scene->setContent(materials(), textures());
     m_scene->loadWorld(*world());
+}
+
+void TraceRenderer::onGpuWorldLoaded() {
+    loadScene();
     m_frameNumber = 0;
     m_lastViewKey.clear();
     const StaticGeometry& statics = *m_scene->statics();
@@ -74,7 +96,9 @@ void TraceRenderer::onGpuWorldLoaded() {
 
 void TraceRenderer::onGpuReady() {
     addScreenshotCommand();
-    if (m_scene->hasWorld()) warmPipelines();
+    if (!m_scene->hasWorld()) return;
+    if (!m_calibrationKey.empty()) calibrate();
+    warmPipelines();
 }
 
 void TraceRenderer::onGpuContentDropped() {

@@ -46,7 +46,13 @@ class TraceRenderer final : public GpuRenderer {
     RtOutput describeOutput(const ViewBuffers& buffers, const VkRect2D& area) const;
     void addScreenshotCommand();
     void removeScreenshotCommand();
-    void warmPipelines();
+    void warmPipelines() { runStill({8, 8}, true); }
+    /// Draws a still of the map that nobody sees, with the filters or without; ms from submission to the end.
+    double runStill(VkExtent2D extent, bool filters);
+    void useBackend(Backend backend);
+    void loadScene();
+    /// Measures every back end of the device on the loaded map, and takes and keeps the fastest.
+    void calibrate();
     void printStats();
     void writeRadiance(const std::string& file);
     static void onScreenshotHdr();
@@ -61,6 +67,8 @@ class TraceRenderer final : public GpuRenderer {
     ViewGeometry m_geometry;
     ViewBuffers* m_lastBuffers = nullptr;
     bool m_commandAdded = false;
+    std::string m_calibrationKey; ///< not empty: the back end is to be measured when a map is there
+    std::string m_backendReason;
     uint32_t m_pictureNumber = 0; ///< of drawn frames
     uint32_t m_frameNumber = 0; ///< of traced views since the map was loaded
     uint32_t m_sampleNumber = 0;

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "base/measured_choices.hpp"
 #include "formats/pk3_file_source.hpp"
 #include "gpu/capabilities.hpp"
 #include "gpu/device.hpp"
@@ -116,6 +117,11 @@ void checkDevices(std::vector<Check>& checks) {
                           "a newer graphics driver, or ./run --set-up, which fetches a software driver that has it"});
 }
 
+void checkChoices(std::vector<Check>& checks) {
+    for (const MeasuredChoice& choice : readMeasuredChoices(measuredChoicesFile()))
+        checks.push_back({"measured", Finding::Good, choice.choice + " (" + choice.reason + ") for " + choice.key, ""});
+}
+
 Check checkDisplay() {
     const char* x11 = std::getenv("DISPLAY");
     const char* wayland = std::getenv("WAYLAND_DISPLAY");
@@ -153,6 +159,7 @@ std::vector<Check> examineMachine(const DoctorOptions& options) {
     checkContent(found, options, checks);
     checkModules(found, checks);
     checkDevices(checks);
+    checkChoices(checks);
     checks.push_back(checkDisplay());
     checks.push_back(checkReference(found));
     if (!options.outputFolder.empty()) checks.push_back(checkOutputFolder(options.outputFolder));

@@ -1,0 +1,27 @@
+#pragma once
+// Choices that were measured once on this machine, kept in ${XDG_CACHE_HOME:-~/.cache}/q3rt/choices: which back end of
+// the ray tracer is fastest. A file that is damaged counts as absent: everything in it is measured again.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace q3rt {
+
+struct MeasuredChoice {
+    std::string key;    ///< what it depends on, such as device, driver and build; one line
+    std::string choice; ///< one word
+    std::string reason; ///< the figures, for people; one line
+};
+
+/// Empty if neither XDG_CACHE_HOME nor HOME is set: nothing is kept then.
+std::filesystem::path measuredChoicesFile();
+
+std::vector<MeasuredChoice> readMeasuredChoices(const std::filesystem::path& file);
+std::optional<MeasuredChoice> findMeasuredChoice(const std::filesystem::path& file, std::string_view key);
+/// Adds or replaces one. The file changes at once or not at all; false, with a log line, if it can't be written.
+bool keepMeasuredChoice(const std::filesystem::path& file, const MeasuredChoice& choice);
+
+} // namespace q3rt
