@@ -142,9 +142,9 @@ class BspParser {
     }
 
     void readTexts(Bsp& bsp) {
-        const auto text = m_lumps[kEntities];
-        const char* characters = reinterpret_cast<const char*>(text.data());
-        bsp.entities.assign(characters, strnlen(characters, text.size()));
+        const auto lump = m_lumps[kEntities];
+        const std::string_view text(reinterpret_cast<const char*>(lump.data()), lump.size());
+        bsp.entities = text.substr(0, text.find('\0'));
         readRecords(kShaders, bsp.shaders, [](ByteReader& reader, size_t) {
             BspShader shader;
             shader.name = reader.text(kBspNameBytes);
