@@ -164,26 +164,39 @@ std::vector<uint32_t> TraceRenderer::settingsKey() const {
     std::vector<uint32_t> key;
     appendBits(key, std::array{m_settings.rt_illumination, m_settings.rt_cullLights, m_settings.rt_numRandomDL,
                                m_settings.rt_softshadows, m_settings.rt_antialiasing, m_settings.rt_seed,
-                               m_settings.rt_tonemap});
+                               m_settings.rt_tonemap, m_settings.rt_reflectionDepth});
     appendBits(key, std::array{m_settings.rt_ambient, m_settings.rt_exposure});
     return key;
 }
 
 uint32_t TraceRenderer::countSample(const FrameCommands& frame, const SceneView& scene) {
     std::vector<uint32_t> key;
+    if (m_settings.rt_accumulate != 0) key = viewKey(frame, scene);
+    const bool same = !key.empty() && key == m_lastViewKey;
+    m_lastViewKey = std::move(key);
+    m_sampleNumber = same ? m_sampleNumber + 1 : 0;
+    return m_sampleNumber;
+}
+
+std::vector<uint32_t> TraceRenderer::viewKey(const FrameCommands& frame, const SceneView& scene) const {
+    std::vector<uint32_t> key = settingsKey();
     for (const vec3& v : {scene.view.origin, scene.view.axis[0], scene.view.axis[1], scene.view.axis[2]})
         appendBits(key, v);
     appendBits(key, std::array{scene.fovXDegrees, scene.fovYDegrees});
     appendBits(key, std::array{scene.x, scene.y, scene.width, scene.height, scene.timeMs});
-    appendBits(key, std::array{scene.entityCount, scene.polyCount, scene.lightCount});
-    for (uint32_t i = 0; i < scene.entityCount; ++i)
-        appendBits(key, frame.entities[scene.firstEntity + i].orientation.origin);
-    const std::vector<uint32_t> settings = settingsKey();
-    key.insert(key.end(), settings.begin(), settings.end());
-    const bool same = m_settings.rt_accumulate != 0 && key == m_lastViewKey;
-    m_lastViewKey = std::move(key);
-    m_sampleNumber = same ? m_sampleNumber + 1 : 0;
-    return m_sampleNumber;
+    for (uint32_t i = 0; i < scene.lightCount; ++i) {
+        const SceneLight& light = frame.lights[scene.firstLight + i];
+        appendBits(key, std::array{light.origin, light.color});
+        appendBits(key, light.radius);
+    }
+    for (const EntityRecord& entity : m_geometry.entities) {
+        appendBits(key, entity.worldFromModel);
+        appendBits(key, entity.stage.entityColor);
+    }
+    // Animated models and polys: their points say all.
+    const auto bytes = std::as_bytes(std::span(m_geometry.vertices));
+    appendBits(key, std::hash<std::string_view>{}({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
+    return key;
 }
 
 const TracedView& TraceRenderer::prepareView(const FrameCommands& frame, const SceneView& scene, ViewBuffers& buffers) {

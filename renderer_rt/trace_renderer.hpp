@@ -36,6 +36,8 @@ class TraceRenderer final : public GpuRenderer {
     void describeSettings(RtFrame& out) const;
     /// Number of this sample in the mean of an unchanged view; 0 starts a new mean.
     uint32_t countSample(const FrameCommands& frame, const SceneView& scene);
+    /// All that a view's picture depends on: equal keys, equal expected pictures.
+    std::vector<uint32_t> viewKey(const FrameCommands& frame, const SceneView& scene) const;
     /// What changes the light of a view that stays the same.
     std::vector<uint32_t> settingsKey() const;
     /// Buffers of a view there that this picture doesn't use yet.
@@ -70,7 +72,7 @@ class TraceRenderer final : public GpuRenderer {
     std::string m_calibrationKey; ///< not empty: the back end is to be measured when a map is there
     std::string m_backendReason;
     uint32_t m_pictureNumber = 0; ///< of drawn frames
-    uint32_t m_frameNumber = 0; ///< of traced views since the map was loaded
+    uint32_t m_frameNumber = 0;   ///< of traced views since the map was loaded
     uint32_t m_sampleNumber = 0;
     std::vector<uint32_t> m_lastViewKey; ///< of the view that the mean belongs to
     std::string m_radianceFile;          ///< asked for by screenshotHDR
