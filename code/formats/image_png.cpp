@@ -53,6 +53,20 @@ struct FreePixels {
     void operator()(stbi_uc* pixels) const { stbi_image_free(pixels); }
 };
 
+/// A chunk may claim 2 GiB, and stb_image takes the memory before it looks for the bytes: each must lie in the file.
+void checkChunks(std::span<const std::byte> file, const std::string& name) {
+    constexpr size_t kSignatureBytes = 8, kLengthBytes = 4, kTypeBytes = 4, kSumBytes = 4;
+    size_t at = kSignatureBytes;
+    while (at + kLengthBytes + kTypeBytes <= file.size()) {
+        uint32_t length = 0;
+        for (size_t i = 0; i < kLengthBytes; ++i)
+            length = length << 8 | std::to_integer<uint32_t>(file[at + i]);
+        at += kLengthBytes + kTypeBytes;
+        if (length > file.size() - at) failImage(name, "ends in the middle of a chunk");
+        at += size_t{length} + kSumBytes;
+    }
+}
+
 void appendBytes(void* target, void* data, int size) {
     const auto* first = static_cast<const std::byte*>(data);
     auto* bytes = static_cast<std::vector<std::byte>*>(target);
@@ -63,6 +77,7 @@ void appendBytes(void* target, void* data, int size) {
 
 Image decodePng(std::span<const std::byte> file, const std::string& name) {
     if (file.size() > 0x7FFFFFFF) failImage(name, "is larger than 2 GiB");
+    checkChunks(file, name);
     const auto* bytes = reinterpret_cast<const stbi_uc*>(file.data());
     const int length = static_cast<int>(file.size());
     int width = 0, height = 0, channels = 0;
