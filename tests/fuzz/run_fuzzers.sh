@@ -2,7 +2,7 @@
 # Runs every libFuzzer target for the given number of seconds, two at a time.
 # Usage: tests/fuzz/run_fuzzers.sh SECONDS [BUILD_FOLDER] [TARGET...]
 # The build folder (default build-fuzz) is made with clang. New inputs stay in its grown_corpus, so that long runs add
-# up; an input that crashes is left in its crashes folder.
+# up; an input that crashes is left in its crashes folder. Q3RT_FUZZ_SEED=N repeats one sequence of inputs.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 seconds=${1:-}
@@ -31,9 +31,10 @@ fi
 # One target: quiet unless it fails.
 cat >"$build/run_one_fuzzer.sh" <<'ONE'
 name=$1 build=$2 seconds=$3
+seed=${Q3RT_FUZZ_SEED:-0}
 mkdir -p "$build/grown_corpus/$name" "$build/fuzz_seeds/$name"
 log=$build/fuzz_$name.log
-if "$build/fuzz_$name" -max_total_time="$seconds" -timeout=25 -rss_limit_mb=2048 -print_final_stats=1 \
+if "$build/fuzz_$name" -seed="$seed" -max_total_time="$seconds" -timeout=25 -rss_limit_mb=2048 -print_final_stats=1 \
     -artifact_prefix="$build/crashes/$name-" "$build/grown_corpus/$name" "$build/fuzz_seeds/$name" >"$log" 2>&1; then
     echo "fuzz $name: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") inputs in $seconds s, no crash"
 else
