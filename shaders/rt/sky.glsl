@@ -63,7 +63,8 @@ vec3 skyColor(RtSky sky, vec3 direction, vec3 directionX, vec3 directionY)
     EntityIn none = EntityIn(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), rtFrame.eye);
     AffineColor clouds =
         addStages(beginAffine(), sky.firstStage, sky.stageCount, cloudVertex(direction, sky.cloudHeightQu),
-                  cloudVertex(directionX, sky.cloudHeightQu), cloudVertex(directionY, sky.cloudHeightQu), none, 0.0, false);
+                  cloudVertex(directionX, sky.cloudHeightQu), cloudVertex(directionY, sky.cloudHeightQu), none, 0.0,
+                  false);
     return resolveAffine(clouds, vec3(1.0), color);
 }
 

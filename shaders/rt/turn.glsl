@@ -1,5 +1,5 @@
-// Rays that go on in another direction: mirrors, portals, reflection by water and glass. A turned ray keeps its eye, put
-// where it appears to be behind the surface, and begins at the surface's distance from there: distances, texture
+// Rays that go on in another direction: mirrors, portals, reflection by water and glass. A turned ray keeps its eye,
+// put where it appears to be behind the surface, and begins at the surface's distance from there: distances, texture
 // footprints, fog and all that depends on the eye go on as if the surface were an opening.
 #ifndef Q3RT_RT_TURN_GLSL
 #define Q3RT_RT_TURN_GLSL
