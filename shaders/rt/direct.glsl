@@ -66,6 +66,7 @@ void directPixel(uvec2 pixelPosition)
     if (pixel.lit != 0u && (rtFrame.flags & kFrameIllumination) != 0u) {
         ShadingPoint point;
         point.position = pixel.position;
+        point.error = pixel.error;
         point.origin = offsetOrigin(pixel.position, pixel.error, pixel.geometricNormal);
         point.normal = pixel.normal;
         RtLightRow row = LightRowTable(rtFrame.lightRows).at[lightRowOf(point.origin)];

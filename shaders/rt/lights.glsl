@@ -45,6 +45,7 @@ uint lightRowOf(vec3 point)
 
 struct ShadingPoint {
     vec3 position;
+    vec3 error; // of position, see lib/offset.glsl
     vec3 origin; // of shadow rays: clear of the surface
     vec3 normal; // unit, shading
 };
@@ -54,6 +55,10 @@ LightSample sampleTriangle(uint light, ShadingPoint point, vec2 random)
     RtTriangleLight l = TriangleLightTable(rtFrame.triangleLights).at[light];
     LightSample result = sampleTriangleLight(point.origin, point.normal, l.corner, l.edge1, l.edge2, l.normal,
                                              l.areaQu2, l.radiance, l.twoSided != 0u, random.x, random.y);
+    // A point in the light's own plane takes nothing from it: with a shading normal that leans off the face, an emitter
+    // would light itself through nothing but rounding.
+    if (abs(dot(l.normal, point.position - l.corner)) <= l.error + dot(abs(l.normal), point.error))
+        result.irradiance = vec3(0.0);
     // The ray ends in front of the light by the bound of the sampled point's error and of the ray's own rounding.
     float side = dot(l.normal, result.direction) < 0.0 ? 1.0 : -1.0;
     float end = l.error + dot(abs(result.direction), vec3(kTransformError));
