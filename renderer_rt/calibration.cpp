@@ -1,11 +1,12 @@
 #include "renderer_rt/calibration.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/measured_choices.hpp"
+#include "base/measured_rounds.hpp"
 #include "gpu/device.hpp"
 #include "renderer_rt/trace_renderer.hpp"
 
@@ -13,9 +14,8 @@ namespace q3rt {
 
 namespace {
 
-constexpr double kMeasureMs = 60; ///< of each back end, once it is compiled: 180 ms for all three
-constexpr int kMostRuns = 5;
-constexpr VkExtent2D kSoftwareExtent{192, 108}, kDeviceExtent{1280, 720}; ///< pixels
+constexpr double kBudgetMs = 180; ///< wall time of all runs together, once everything is compiled
+constexpr VkExtent2D kSoftwareExtent{96, 54}, kDeviceExtent{1280, 720}; ///< pixels
 constexpr float kEyeHeightQu = 26;                                      ///< of a player above the start
 constexpr double kRadians = 3.14159265358979323846 / 180;
 
@@ -51,35 +51,53 @@ SceneView stillOf(const World& world, VkExtent2D extent) {
 void TraceRenderer::calibrate() {
     const Capabilities& can = context().device().capabilities();
     const VkExtent2D extent = can.software ? kSoftwareExtent : kDeviceExtent;
-    Backend fastest = m_pipelines->backend();
-    double least = 0;
-    std::string reason;
+    /// A back end with its scene, while another one draws. Empty: the one that stands already.
+    struct Rival {
+        Backend backend;
+        std::unique_ptr<StagePipelines> pipelines;
+        std::unique_ptr<TracedScene> scene;
+    };
+    std::vector<Rival> rivals;
     for (const Backend backend : {Backend::Pipeline, Backend::Query, Backend::Compute}) {
         if (!isAvailable(backend, can)) continue;
-        if (m_pipelines->backend() != backend) {
-            useBackend(backend);
-            loadScene();
-        }
+        Rival& rival = rivals.emplace_back(Rival{backend, nullptr, nullptr});
+        if (backend == m_pipelines->backend()) continue;
+        rival.pipelines = std::make_unique<StagePipelines>(context().device(), backend, context().textures().layout());
+        rival.scene = std::make_unique<TracedScene>(context(), backend);
+        loadScene(*rival.scene);
+    }
+    // A complete pair stands at any moment: an error of the engine may end this function anywhere.
+    const auto exchange = [&](Rival& rival) {
+        if (!rival.scene) return;
+        std::swap(m_pipelines, rival.pipelines);
+        std::swap(m_scene, rival.scene);
+    };
+    std::vector<std::function<RunTime()>> runs;
+    for (Rival& rival : rivals) {
+        exchange(rival);
         warmPipelines();
-        double best = runStill(extent, false), sum = best;
-        for (int run = 1; run < kMostRuns && sum < kMeasureMs; ++run) {
-            const double ms = runStill(extent, false);
-            best = std::min(best, ms);
-            sum += ms;
-        }
-        reason += formatText("%s%s %.2f ms", reason.empty() ? "" : ", ", nameOf(backend), best);
-        if (least == 0 || best < least) {
-            least = best;
-            fastest = backend;
-        }
+        exchange(rival);
+        runs.emplace_back([&] {
+            exchange(rival);
+            RunTime time = runStill(extent, false);
+            exchange(rival);
+            // A software device works on the processors that other programs share.
+            if (!can.software) time.costMs = time.wallMs;
+            return time;
+        });
     }
-    if (m_pipelines->backend() != fastest) {
-        useBackend(fastest);
-        loadScene();
-    }
-    reason += formatText(" at %ux%u", extent.width, extent.height);
-    logLine(LogLevel::Info, "rt_backend auto: %s (%s)", nameOf(fastest), reason.c_str());
-    keepMeasuredChoice(measuredChoicesFile(), {m_calibrationKey, nameOf(fastest), reason});
+    const RoundsResult result = measureInRounds(runs, kBudgetMs);
+    exchange(rivals[result.fastest]);
+    std::string reason;
+    for (size_t i = 0; i < rivals.size(); ++i)
+        reason += formatText("%s %.2f ms, ", nameOf(rivals[i].backend), result.leastMs[i]);
+    reason += formatText("%s, least of %zu rounds at %ux%u", can.software ? "processor time" : "wall time",
+                         result.roundCount, extent.width, extent.height);
+    if (result.repeatable)
+        keepMeasuredChoice(measuredChoicesFile(), {m_calibrationKey, backendName(), reason});
+    else
+        reason += "; not kept, the machine is too busy now";
+    logLine(LogLevel::Info, "rt_backend auto: %s (%s)", backendName(), reason.c_str());
     m_backendReason = "measured: " + reason;
     m_calibrationKey.clear();
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <ctime>
 
 #include "base/error.hpp"
 #include "base/log.hpp"
@@ -85,7 +86,7 @@ void TraceRenderer::printStats() {
 }
 
 /// lavapipe compiles a pipeline at its first dispatch: one frame of a few pixels moves that to the load.
-double TraceRenderer::runStill(VkExtent2D extent, bool filters) {
+RunTime TraceRenderer::runStill(VkExtent2D extent, bool filters) {
     m_scene->beginFrame();
     FrameCommands frame;
     const SceneView scene = stillOf(*world(), extent);
@@ -94,6 +95,7 @@ double TraceRenderer::runStill(VkExtent2D extent, bool filters) {
     const TracedView& view = prepareView(frame, scene, buffers);
     DescriptorArena arena(context().device());
     const auto start = std::chrono::steady_clock::now();
+    const std::clock_t processorStart = std::clock();
     context().device().submitAndWait([&](VkCommandBuffer commands) {
         if (view.top) m_scene->recordBuilds(commands, view);
         StageInput input;
@@ -112,10 +114,11 @@ double TraceRenderer::runStill(VkExtent2D extent, bool filters) {
         }
     });
     const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
+    const double processorMs = 1000.0 * static_cast<double>(std::clock() - processorStart) / CLOCKS_PER_SEC;
     m_views.clear();
     m_lastViewKey.clear();
     m_frameNumber = 0;
-    return taken.count();
+    return {taken.count(), processorMs};
 }
 
 } // namespace q3rt

@@ -79,13 +79,13 @@ void TraceRenderer::useBackend(Backend backend) {
     m_scene = std::make_unique<TracedScene>(context(), backend);
 }
 
-void TraceRenderer::loadScene() {
-    m_scene->setContent(materials(), textures());
-    m_scene->loadWorld(*world());
+void TraceRenderer::loadScene(TracedScene& scene) {
+    scene.setContent(materials(), textures());
+    scene.loadWorld(*world());
 }
 
 void TraceRenderer::onGpuWorldLoaded() {
-    loadScene();
+    loadScene(*m_scene);
     m_frameNumber = 0;
     m_lastViewKey.clear();
     const StaticGeometry& statics = *m_scene->statics();

@@ -3,6 +3,7 @@
 
 #include <list>
 
+#include "base/measured_rounds.hpp"
 #include "renderer_rt/passes/denoise.hpp"
 #include "renderer_rt/passes/taa.hpp"
 #include "renderer_rt/trace_settings.hpp"
@@ -49,10 +50,10 @@ class TraceRenderer final : public GpuRenderer {
     void addScreenshotCommand();
     void removeScreenshotCommand();
     void warmPipelines() { runStill({8, 8}, true); }
-    /// Draws a still of the map that nobody sees, with the filters or without; ms from submission to the end.
-    double runStill(VkExtent2D extent, bool filters);
+    /// Draws a still of the map that nobody sees, with the filters or without; times from submission to the end.
+    RunTime runStill(VkExtent2D extent, bool filters);
     void useBackend(Backend backend);
-    void loadScene();
+    void loadScene(TracedScene& scene);
     /// Measures every back end of the device on the loaded map, and takes and keeps the fastest.
     void calibrate();
     void printStats();

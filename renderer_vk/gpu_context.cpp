@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "gpu/readback.hpp"
+#include "gpu/software_driver.hpp"
 #include "renderer_vk/window.hpp"
 
 namespace q3rt {
@@ -14,6 +15,7 @@ GpuContext::GpuContext(EngineServices& engine, const RasterSettings& settings)
     VideoMode mode = kFallbackMode;
     DeviceOptions options;
     options.wanted = settings.r_device;
+    offerFetchedDriver(); // before SDL makes a window for Vulkan: it asks the loader
     if (engine.wantsWindow()) {
         m_window = std::make_unique<Window>(engine, settings);
         mode = m_window->mode();

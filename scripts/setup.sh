@@ -5,7 +5,8 @@
 # One list that has the same names on Debian 12 and 13. The first three lines build; then what runs; then the game.
 readonly kPackages="git build-essential cmake ninja-build pkg-config ca-certificates
   libvulkan-dev libvulkan-volk-dev glslang-tools spirv-tools libsdl2-dev libjpeg-dev libstb-dev libglm-dev
-  libminizip-dev zlib1g-dev libzstd-dev nlohmann-json3-dev libcli11-dev libembree-dev libgtest-dev libbenchmark-dev
+  libminizip-dev zlib1g-dev libzstd-dev libopenexr-dev nlohmann-json3-dev libcli11-dev libembree-dev libgtest-dev
+  libbenchmark-dev
   vulkan-validationlayers vulkan-tools xvfb xauth debian-archive-keyring
   ioquake3 openarena openarena-data openarena-088-data openarena-oacmp1"
 
@@ -63,11 +64,12 @@ setUpPackages() {
       "then run this again"
 }
 
-# setUpDriver VARIABLE: exports VARIABLE = ICD file of the ray-tracing software driver.
+# setUpDriver [VARIABLE]: has the ray-tracing software driver fetched, where q3rt and the modules look for it by
+# themselves; exports VARIABLE = its ICD file.
 setUpDriver() {
   local icd
   icd="$(scripts/lavapipe.sh)" || exit 1
-  export "$1=$icd"
+  [ $# = 0 ] || export "$1=$icd"
 }
 
 # configureProgram FOLDER [CMAKE-ARGUMENT...]: once for each folder; the build itself notices changed lists later.

@@ -1,11 +1,11 @@
 #include "base/measured_choices.hpp"
 
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <unistd.h>
 
 #include "base/log.hpp"
+#include "base/user_cache.hpp"
 
 namespace q3rt {
 
@@ -24,11 +24,8 @@ std::string oneField(std::string text) {
 } // namespace
 
 std::filesystem::path measuredChoicesFile() {
-    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache)
-        return std::filesystem::path(cache) / "q3rt" / "choices";
-    if (const char* home = std::getenv("HOME"); home && *home)
-        return std::filesystem::path(home) / ".cache" / "q3rt" / "choices";
-    return {};
+    const std::filesystem::path cache = userCacheFolder();
+    return cache.empty() ? cache : cache / "choices";
 }
 
 std::vector<MeasuredChoice> readMeasuredChoices(const std::filesystem::path& file) {

@@ -1,6 +1,6 @@
 #pragma once
-// Choices that were measured once on this machine, kept in ${XDG_CACHE_HOME:-~/.cache}/q3rt/choices: which back end of
-// the ray tracer is fastest. A file that is damaged counts as absent: everything in it is measured again.
+// Choices that were measured once on this machine, kept in the user's cache: which back end of the ray tracer is
+// fastest. A file that is damaged counts as absent: everything in it is measured again.
 
 #include <filesystem>
 #include <optional>
@@ -16,7 +16,7 @@ struct MeasuredChoice {
     std::string reason; ///< the figures, for people; one line
 };
 
-/// Empty if neither XDG_CACHE_HOME nor HOME is set: nothing is kept then.
+/// Empty if there is no cache folder: nothing is kept then.
 std::filesystem::path measuredChoicesFile();
 
 std::vector<MeasuredChoice> readMeasuredChoices(const std::filesystem::path& file);

@@ -1,18 +1,19 @@
 #include "gpu/instance.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "gpu/software_driver.hpp"
 
 namespace q3rt {
 namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr const char* kNoDriverRemedy =
-    "install one (Debian: apt install mesa-vulkan-drivers, or your GPU vendor's), or name its .json file in the "
-    "environment variable VK_DRIVER_FILES";
+    "run ./run --set-up, which fetches a software driver, or install your GPU vendor's (Debian: mesa-vulkan-drivers)";
 
 VkBool32 VKAPI_PTR onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                              const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
@@ -38,9 +39,15 @@ bool hasLayer(const char* name) {
     return std::any_of(list.begin(), list.end(), [&](const auto& l) { return !std::strcmp(l.layerName, name); });
 }
 
+[[noreturn]] void failWithoutDriver(const char* what) {
+    if (const char* variable = variableNamingDrivers())
+        throw DeviceError(formatText("%s: the environment names drivers by %s=%s; correct or unset it", what, variable,
+                                     std::getenv(variable)));
+    throw DeviceError(formatText("%s: %s", what, kNoDriverRemedy));
+}
+
 void checkResult(VkResult result) {
-    if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
-        throw DeviceError(std::string("no Vulkan driver was found: ") + kNoDriverRemedy);
+    if (result == VK_ERROR_INCOMPATIBLE_DRIVER) failWithoutDriver("no Vulkan driver was found");
     if (result == VK_ERROR_EXTENSION_NOT_PRESENT)
         throw DeviceError("the Vulkan driver can't draw into this window system's windows: run headless, or install "
                           "a driver that can");
@@ -50,6 +57,7 @@ void checkResult(VkResult result) {
 } // namespace
 
 Instance createInstance(const InstanceInfo& info) {
+    offerFetchedDriver();
     if (volkInitialize() != VK_SUCCESS)
         throw DeviceError(
             "the Vulkan loader libvulkan.so.1 was not found: install it (Debian: apt install libvulkan1)");
@@ -110,7 +118,7 @@ std::vector<VkPhysicalDevice> listPhysicalDevices(VkInstance instance) {
     uint32_t count = 0;
     const VkResult result = vkEnumeratePhysicalDevices(instance, &count, nullptr);
     if (result == VK_ERROR_INITIALIZATION_FAILED || (result == VK_SUCCESS && count == 0))
-        throw DeviceError(std::string("the Vulkan drivers found offer no device: ") + kNoDriverRemedy);
+        failWithoutDriver("the Vulkan drivers found offer no device");
     vkCheck(result, "vkEnumeratePhysicalDevices");
     std::vector<VkPhysicalDevice> devices(count);
     vkCheck(vkEnumeratePhysicalDevices(instance, &count, devices.data()), "vkEnumeratePhysicalDevices");

@@ -14,6 +14,7 @@
 #include "formats/image.hpp"
 #include "formats/text_case.hpp"
 #include "host/commands.hpp"
+#include "host/exr_file.hpp"
 #include "host/file_bytes.hpp"
 #include "metrics/image_metrics.hpp"
 
@@ -26,14 +27,15 @@ struct CompareArguments {
     double pixelsPerDegree = kFlipPixelsPerDegree;
 };
 
-/// PFM as it is; anything else as the engine would load it, 1.0 = byte 255. Alpha is ignored.
+/// PFM and EXR as they are; anything else as the engine would load it, 1.0 = byte 255. Alpha is ignored.
 MetricImage loadMetricImage(const std::string& path) {
     const std::vector<std::byte> bytes = readFileBytes(path);
-    if (toLowerAscii(std::filesystem::path(path).extension().string()) != ".pfm") {
+    const std::string extension = toLowerAscii(std::filesystem::path(path).extension().string());
+    if (extension != ".pfm" && extension != ".exr") {
         const Image image = decodeImage(bytes, path);
         return metricImageFromBytes(image.width, image.height, 4, image.rgba);
     }
-    const FloatImage image = decodePfm(bytes, path);
+    const FloatImage image = extension == ".exr" ? decodeExr(bytes, path) : decodePfm(bytes, path);
     try {
         return metricImageFromFloats(image.width, image.height, image.rgb);
     } catch (const ContentError& error) {
@@ -84,8 +86,9 @@ void runCompare(const CompareArguments& arguments) {
 
 void addCompareCommand(CLI::App& app, int& exitCode) {
     CLI::App* command = app.add_subcommand(
-        "compare", "Compare two pictures of one size (PNG, TGA, JPEG, PFM ...): one JSON line with ssim, flip, psnr "
-                   "(of what a display shows; null where equal), mse and relmse (of the values, 1 = full brightness)");
+        "compare",
+        "Compare two pictures of one size (PNG, TGA, JPEG, EXR, PFM ...): one JSON line with ssim, flip, psnr "
+        "(of what a display shows; null where equal), mse and relmse (of the values, 1 = full brightness)");
     const auto arguments = std::make_shared<CompareArguments>();
     command->add_option("reference", arguments->reference, "The picture that is right")->required();
     command->add_option("test", arguments->test, "The picture to judge")->required();

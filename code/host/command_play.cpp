@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -11,6 +10,8 @@
 #include "base/error.hpp"
 #include "host/commands.hpp"
 #include "host/engine_process.hpp"
+#include "host/file_bytes.hpp"
+#include "host/output_file.hpp"
 
 namespace q3rt {
 namespace {
@@ -37,16 +38,8 @@ class PlayReport {
   public:
     PlayReport(const PlayArguments& arguments, size_t expectedFrames)
         : m_folder(arguments.out)
-        , m_progress("frame", expectedFrames) {
-        std::error_code error;
-        if (!m_folder.empty()) fs::create_directories(m_folder, error);
-        if (error)
-            throw UsageError(
-                formatText("%s: can't be made: %s; choose another --out", m_folder.c_str(), error.message().c_str()));
-        if (arguments.stats.empty()) return;
-        m_stats.open(arguments.stats);
-        if (!m_stats) throw UsageError(arguments.stats + ": can't be written; choose another --stats");
-    }
+        , m_stats(arguments.stats)
+        , m_progress("frame", expectedFrames) {}
     void take(const WatchedFrame& frame) {
         if (frame.frame == WatchMessage::kStarted) {
             m_device = frame.text;
@@ -54,11 +47,11 @@ class PlayReport {
         }
         m_times.push_back(frame.wallMs);
         m_lastStats = frame.text;
-        if (frame.picture.width > 0 && !m_folder.empty()) {
-            writePng(m_folder / formatText("%08d.png", frame.frame), frame.picture);
+        if (frame.picture.width > 0 && m_folder.isWanted()) {
+            writePng(m_folder.path() / formatText("%08d.png", frame.frame), frame.picture);
             ++m_pictures;
         }
-        if (m_stats.is_open()) m_stats << statsLine(frame.frame, frame.wallMs, frame.text) << '\n';
+        if (m_stats.isWanted()) m_stats.append(statsLine(frame.frame, frame.wallMs, frame.text));
         m_progress.advance(m_times.size());
     }
     void print(bool json) const {
@@ -68,20 +61,23 @@ class PlayReport {
         const nlohmann::ordered_json line = {{"frames", times.count}, {"median_ms", times.medianMs},
                                              {"p99_ms", times.p99Ms}, {"device", m_device},
                                              {"backend", backend},    {"pictures", m_pictures}};
-        if (!m_folder.empty()) std::ofstream(m_folder / "summary.json") << line.dump() << '\n';
+        if (m_folder.isWanted()) {
+            const std::string text = line.dump() + "\n";
+            writeFileBytes(m_folder.path() / "summary.json", std::as_bytes(std::span(text)));
+        }
         if (json)
             std::printf("%s\n", line.dump().c_str());
         else
             std::printf("%zu frames, median %.2f ms, 99th percentile %.2f ms, device %s%s%s, %zu pictures%s%s\n",
                         times.count, times.medianMs, times.p99Ms, m_device.c_str(),
                         backend.empty() ? "" : ", back end ", backend.c_str(), m_pictures,
-                        m_folder.empty() ? "" : " in ", m_folder.c_str());
+                        m_folder.isWanted() ? " in " : "", m_folder.path().c_str());
     }
     size_t frameCount() const { return m_times.size(); }
 
   private:
-    fs::path m_folder;
-    std::ofstream m_stats;
+    OutputFolder m_folder;
+    LineFile m_stats;
     Progress m_progress;
     std::vector<double> m_times;
     std::string m_device, m_lastStats;

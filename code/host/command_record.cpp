@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "host/commands.hpp"
 #include "host/engine_process.hpp"
+#include "host/output_file.hpp"
 
 namespace q3rt {
 namespace {
@@ -26,13 +27,9 @@ void runRecord(RecordArguments& a) {
     run.module = findModule(a.renderer);
     run.demo = findDemo(*openGame(run.game), a.demo);
     run.headless = run.timed = run.watched = true;
-    run.recordTo = fs::absolute(a.out);
-    if (!fs::is_directory(run.recordTo.parent_path()))
-        throw UsageError(run.recordTo.parent_path().string() + ": no such folder; choose another --out");
+    OutputFile output(fs::absolute(a.out));
+    run.recordTo = output.temporary();
     const auto frames = static_cast<size_t>(run.recordFirst + run.recordCount);
-    // An older file of that name must not pass for the result.
-    std::error_code ignored;
-    fs::remove(run.recordTo, ignored);
     {
         Progress progress("frame", run.recordCount > 0 ? frames : run.demo.snapshots);
         runEngine(run, [&](const WatchedFrame& frame) {
@@ -43,10 +40,10 @@ void runRecord(RecordArguments& a) {
     const TraceInfo& info = recording.info();
     const uintmax_t bytes = fs::file_size(run.recordTo);
     if (info.frameCount == 0)
-        throw ContentError(
-            formatText("%s holds no frame of the world: the demo is shorter than --first", run.recordTo.c_str()));
+        throw ContentError(a.out + " would hold no frame of the world: the demo is shorter than --first");
+    output.commit();
     if (a.json) {
-        const nlohmann::ordered_json line = {{"recording", run.recordTo.string()},
+        const nlohmann::ordered_json line = {{"recording", a.out},
                                              {"frames", info.frameCount},
                                              {"first", info.firstFrame},
                                              {"loading_frames", info.loadingFrameCount},
@@ -57,7 +54,7 @@ void runRecord(RecordArguments& a) {
                                              {"bytes", bytes}};
         std::printf("%s\n", line.dump().c_str());
     } else {
-        std::printf("%s: %u frames of %s at %dx%d, %u loading frames, %zu files read, %.1f MB\n", run.recordTo.c_str(),
+        std::printf("%s: %u frames of %s at %dx%d, %u loading frames, %zu files read, %.1f MB\n", a.out.c_str(),
                     info.frameCount, info.map.c_str(), info.width, info.height, info.loadingFrameCount,
                     recording.files().size(), static_cast<double>(bytes) / 1e6);
     }

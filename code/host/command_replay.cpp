@@ -1,7 +1,6 @@
 // q3rt replay: a recording drawn again, by any module, without engine or game code.
 
 #include <cstdio>
-#include <fstream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +9,7 @@
 #include "base/error.hpp"
 #include "host/commands.hpp"
 #include "host/headless/replayer.hpp"
+#include "host/output_file.hpp"
 #include "host/session.hpp"
 
 namespace q3rt {
@@ -30,29 +30,19 @@ struct ReplayArguments {
 class FrameOutput {
   public:
     explicit FrameOutput(const ReplayArguments& arguments)
-        : m_folder(arguments.out) {
-        if (!m_folder.empty()) {
-            std::error_code error;
-            fs::create_directories(m_folder, error);
-            if (error)
-                throw UsageError(formatText("%s: can't be made: %s; choose another --out", m_folder.c_str(),
-                                            error.message().c_str()));
-        }
-        if (arguments.stats.empty()) return;
-        m_stats.open(arguments.stats);
-        if (!m_stats) throw UsageError(arguments.stats + ": can't be written; choose another --stats");
-    }
-    bool wantsPictures() const { return !m_folder.empty(); }
-    bool wantsStats() const { return m_stats.is_open(); }
+        : m_folder(arguments.out)
+        , m_stats(arguments.stats) {}
+    bool wantsPictures() const { return m_folder.isWanted(); }
+    bool wantsStats() const { return m_stats.isWanted(); }
     void store(int number, const Replayer::Result& result, const std::string& moduleStats) {
-        if (result.picture && wantsPictures()) writePng(m_folder / formatText("%08d.png", number), *result.picture);
-        if (wantsStats() && !(m_stats << statsLine(number, result.wallMs, moduleStats) << '\n'))
-            throw UsageError("the statistics file can't be written: the disk may be full");
+        if (result.picture && wantsPictures())
+            writePng(m_folder.path() / formatText("%08d.png", number), *result.picture);
+        if (wantsStats()) m_stats.append(statsLine(number, result.wallMs, moduleStats));
     }
 
   private:
-    fs::path m_folder;
-    std::ofstream m_stats;
+    OutputFolder m_folder;
+    LineFile m_stats;
 };
 
 /// Draws one frame so often that an accumulating renderer has averaged `times` draws of it.

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "host/commands.hpp"
 #include "host/headless/replayer.hpp"
+#include "host/output_file.hpp"
 #include "host/session.hpp"
 #include "host/still_scene.hpp"
 
@@ -41,11 +42,15 @@ void loadMap(HeadlessEngine& engine, FileSource& files, const std::string& map) 
 
 void loadTrace(HeadlessEngine& engine, Recording& recording) {
     Replayer replayer(recording, engine, {});
-    for (size_t i = 0; i < recording.frameCount(); ++i)
+    Progress progress("frame", recording.frameCount());
+    for (size_t i = 0; i < recording.frameCount(); ++i) {
         replayer.play(recording.readFrame(i), Replayer::Draw::Nothing);
+        progress.advance(i + 1);
+    }
 }
 
 void runSubset(const SubsetArguments& a) {
+    checkWritable(a.out);
     std::unique_ptr<Recording> recording;
     std::unique_ptr<FileSource> files;
     if (a.map.empty()) {

@@ -8,8 +8,10 @@
 
 #include "base/error.hpp"
 #include "host/commands.hpp"
+#include "host/exr_file.hpp"
 #include "host/file_bytes.hpp"
 #include "host/map_stage.hpp"
+#include "host/output_file.hpp"
 
 namespace q3rt {
 namespace {
@@ -17,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ViewArguments {
-    std::string map, at = "spawn:0", renderer = "rt", out, stats;
+    std::string map, at = "spawn:0", renderer = "rt", out;
     PictureSize size{640, 480};
     float fovDegrees = 90;
     int timeMs = 0, frames = 1;
@@ -30,6 +32,11 @@ struct ViewArguments {
 constexpr const char *kRadianceCommand = "screenshotHDR", *kRadianceName = "view",
                      *kRadianceFile = "screenshots/view.pfm";
 
+/// Of a value 1.0 in a file of radiance.
+constexpr const char* kRadianceUnit = "radiance; 1.0 = a white texture at irradiance 63.75 luxel units";
+
+bool wantsRadiance(const std::string& name) { return name.ends_with(".pfm") || name.ends_with(".exr"); }
+
 struct ViewResult {
     HostFrame picture;
     std::vector<double> wallMs;
@@ -41,7 +48,7 @@ ViewResult drawFrames(HeadlessEngine& engine, const ViewArguments& a, const MapS
     Progress progress("frame", static_cast<size_t>(a.frames));
     for (int i = 0; i < a.frames; ++i) {
         const bool last = i + 1 == a.frames;
-        if (last && a.out.ends_with(".pfm")) engine.runCommand({kRadianceCommand, kRadianceName});
+        if (last && wantsRadiance(a.out)) engine.runCommand({kRadianceCommand, kRadianceName});
         const auto start = std::chrono::steady_clock::now();
         stage.drawScene(engine, view);
         auto picture = engine.endFrame(last);
@@ -55,14 +62,16 @@ ViewResult drawFrames(HeadlessEngine& engine, const ViewArguments& a, const MapS
 }
 
 void writeResult(HeadlessEngine& engine, const ViewArguments& a, const ViewResult& result) {
-    if (!a.out.ends_with(".pfm")) return writePng(a.out, result.picture);
+    if (!wantsRadiance(a.out)) return writePng(a.out, result.picture);
     const auto radiance = engine.filesWritten().find(kRadianceFile);
     if (radiance == engine.filesWritten().end())
         throw UsageError(a.renderer + " gives no radiance: write a .png, or use --renderer rt");
-    writeFileBytes(a.out, radiance->second);
+    if (a.out.ends_with(".pfm")) return writeFileBytes(a.out, radiance->second);
+    writeFileBytes(a.out, encodeExr(decodePfm(radiance->second, kRadianceFile), kRadianceUnit));
 }
 
 void runView(const ViewArguments& a) {
+    checkWritable(a.out);
     const auto files = openGame(a.game);
     MapStage stage(*files, a.map);
     const EyePoint eye = stage.findEye(a.at);
@@ -100,11 +109,11 @@ void addViewCommand(CLI::App& app, int& exitCode) {
     command->add_option("--frames", a->frames, "Frames drawn of the same view; with rt_accumulate 1 their mean is kept")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
-    command->add_option("--out", a->out, "Picture to write: .png, or .pfm for radiance as floats")
+    command->add_option("--out", a->out, "Picture to write: .png, or .exr or .pfm for radiance as floats")
         ->required()
         ->check([](const std::string& name) {
-            return name.ends_with(".png") || name.ends_with(".pfm") ? std::string()
-                                                                    : "'" + name + "' must end in .png or .pfm";
+            return name.ends_with(".png") || wantsRadiance(name) ? std::string()
+                                                                 : "'" + name + "' must end in .png, .exr or .pfm";
         });
     addRendererOption(*command, a->renderer);
     addSizeOption(*command, a->size);

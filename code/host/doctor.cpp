@@ -11,7 +11,8 @@
 #include "formats/pk3_file_source.hpp"
 #include "gpu/capabilities.hpp"
 #include "gpu/device.hpp"
-#include "host/file_bytes.hpp"
+#include "gpu/software_driver.hpp"
+#include "host/output_file.hpp"
 #include "scene/world.hpp"
 
 namespace q3rt {
@@ -95,6 +96,19 @@ void checkModules(const Installation& found, std::vector<Check>& checks) {
     }
 }
 
+/// The fetched software driver, and whether the Vulkan loader is told of it.
+void checkFetchedDriver(std::vector<Check>& checks) {
+    const char* variable = variableNamingDrivers();
+    if (variable)
+        checks.push_back({"drivers", Finding::Good, formatText("%s=%s", variable, std::getenv(variable)), ""});
+    const fs::path fetched = findFetchedDriver();
+    if (fetched.empty()) return;
+    checks.push_back({"drivers", Finding::Good,
+                      fetched.string() + (variable ? ": not added, the environment names drivers"
+                                                   : ": fetched software driver, added to the machine's own"),
+                      ""});
+}
+
 void checkDevices(std::vector<Check>& checks) {
     std::vector<Capabilities> devices;
     try {
@@ -132,12 +146,10 @@ Check checkDisplay() {
 
 Check checkOutputFolder(const std::string& folder) {
     try {
-        const fs::path probe = fs::path(folder) / formatText(".q3rt-doctor.%d", static_cast<int>(getpid()));
-        writeFileBytes(probe, {});
-        fs::remove(probe);
+        const OutputFolder trial(folder);
         return {"output", Finding::Good, folder + " can be written", ""};
-    } catch (const ContentError&) {
-        return {"output", Finding::Problem, folder + " can't be written", "name a writable folder with --out"};
+    } catch (const UsageError& error) {
+        return {"output", Finding::Problem, error.what(), "name a writable folder with --out"};
     }
 }
 
@@ -158,6 +170,7 @@ std::vector<Check> examineMachine(const DoctorOptions& options) {
     checkArchives(found, options.deep, checks);
     checkContent(found, options, checks);
     checkModules(found, checks);
+    checkFetchedDriver(checks);
     checkDevices(checks);
     checkChoices(checks);
     checks.push_back(checkDisplay());

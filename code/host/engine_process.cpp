@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,6 +13,7 @@
 #include "base/error.hpp"
 #include "host/engine_setup.hpp"
 #include "host/file_bytes.hpp"
+#include "host/interrupt.hpp"
 
 extern char** environ;
 
@@ -41,25 +43,39 @@ struct Descriptor {
 class Child {
   public:
     Child(const EngineCommand& command, int outputFile, int socket);
-    ~Child() {
-        if (m_process <= 0) return;
-        kill(m_process, SIGKILL);
-        wait();
-    }
+    ~Child();
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
     /// Exit status, or 128 + signal.
-    int wait() {
-        int status = 0;
-        while (waitpid(m_process, &status, 0) < 0 && errno == EINTR) {
-        }
-        m_process = -1;
-        return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    }
+    int wait();
 
   private:
+    bool hasEnded();
     pid_t m_process = -1;
+    int m_status = 0;
 };
+
+/// Asks politely first: the engine puts the screen back and stops the sound. A hung one is killed.
+Child::~Child() {
+    constexpr int kStepMs = 10, kMostMs = 5000;
+    if (m_process <= 0) return;
+    kill(m_process, SIGTERM);
+    for (int waitedMs = 0; waitedMs < kMostMs; waitedMs += kStepMs) {
+        if (hasEnded()) return;
+        poll(nullptr, 0, kStepMs);
+    }
+    kill(m_process, SIGKILL);
+    waitpid(m_process, &m_status, 0);
+}
+
+bool Child::hasEnded() { return waitpid(m_process, &m_status, WNOHANG) == m_process; }
+
+int Child::wait() {
+    while (waitpid(m_process, &m_status, 0) < 0 && errno == EINTR)
+        throwIfInterrupted();
+    m_process = -1;
+    return WIFEXITED(m_status) ? WEXITSTATUS(m_status) : 128 + WTERMSIG(m_status);
+}
 
 Child::Child(const EngineCommand& command, int outputFile, int socket) {
     // Everything is allocated before the fork: the child may only make system calls.
@@ -84,8 +100,10 @@ Child::Child(const EngineCommand& command, int outputFile, int socket) {
     m_process = fork();
     if (m_process < 0) throw UsageError(formatText("the engine can't be started: %s", std::strerror(errno)));
     if (m_process > 0) return;
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
     const int input = open("/dev/null", O_RDONLY);
     if (outputFile >= 0) {
+        setpgid(0, 0); // the terminal's Ctrl-C is for us, who then end the engine
         dup2(input, STDIN_FILENO);
         dup2(outputFile, STDOUT_FILENO);
         dup2(outputFile, STDERR_FILENO);
@@ -99,8 +117,11 @@ Child::Child(const EngineCommand& command, int outputFile, int socket) {
 bool receive(int socket, void* data, size_t bytes) {
     char* at = static_cast<char*>(data);
     while (bytes > 0) {
+        throwIfInterrupted();
         pollfd waiting = {socket, POLLIN, 0};
-        if (poll(&waiting, 1, kPatienceMs) == 0)
+        const int ready = poll(&waiting, 1, kPatienceMs);
+        if (ready < 0 && errno == EINTR) continue;
+        if (ready == 0)
             throw DeviceError(formatText("the engine gave no sign of life for %d s and was ended", kPatienceMs / 1000));
         const ssize_t got = read(socket, at, bytes);
         if (got < 0 && errno == EINTR) continue;
@@ -173,8 +194,9 @@ void runEngine(const EngineRun& run, const std::function<void(const WatchedFrame
     int pair[2] = {-1, -1};
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0)
         throw UsageError(formatText("the engine can't be started: %s", std::strerror(errno)));
-    Descriptor ours(pair[0]), theirs(pair[1]);
+    Descriptor theirs(pair[1]);
     Child child(command, output.number, theirs.number);
+    Descriptor ours(pair[0]); // closed before the child is waited for: it may be writing
     theirs.reset();
     if (run.watched) receiveFrames(ours.number, onFrame);
     const int status = child.wait();

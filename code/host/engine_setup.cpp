@@ -1,12 +1,12 @@
 #include "host/engine_setup.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <set>
 #include <unistd.h>
 
 #include "base/error.hpp"
+#include "base/user_cache.hpp"
 #include "formats/text_case.hpp"
 #include "host/file_bytes.hpp"
 
@@ -112,16 +112,8 @@ void addGame(const EngineRun& run, const Installation& installation, const fs::p
 } // namespace
 
 fs::path cacheFolder() {
-    const char* cache = std::getenv("XDG_CACHE_HOME");
-    const char* home = std::getenv("HOME");
-    fs::path folder;
-    if (cache && *cache)
-        folder = cache;
-    else if (home && *home)
-        folder = fs::path(home) / ".cache";
-    else
-        throw UsageError("no place for temporary files: set HOME or XDG_CACHE_HOME");
-    folder /= "q3rt";
+    const fs::path folder = userCacheFolder();
+    if (folder.empty()) throw UsageError("no place for temporary files: set HOME or XDG_CACHE_HOME");
     std::error_code error;
     fs::create_directories(folder, error);
     if (error)
@@ -183,6 +175,8 @@ EngineCommand prepareEngine(const EngineRun& run, const fs::path& home) {
     if (run.headless) {
         environment.emplace_back("SDL_VIDEODRIVER", "dummy");
         environment.emplace_back("HOME", home);
+        // What the driver and the renderers keep (compiled shaders, measured choices) stays where it is.
+        environment.emplace_back("XDG_CACHE_HOME", fs::absolute(cacheFolder().parent_path()));
     }
     if (run.watched) environment.emplace_back(kRecordInner, run.module);
     if (!run.recordTo.empty()) {

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
-#include <unistd.h>
 
 #include "base/error.hpp"
+#include "host/output_file.hpp"
 
 namespace q3rt {
 
@@ -39,18 +39,13 @@ std::vector<std::byte> readFileBytes(const std::filesystem::path& path) {
 }
 
 void writeFileBytes(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-    std::error_code ignored; // the open below says what is wrong
-    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
-    const std::filesystem::path temporary = path.string() + formatText(".%d.tmp", static_cast<int>(getpid()));
-    File file(std::fopen(temporary.c_str(), "wb"));
+    OutputFile output(path);
+    File file(std::fopen(output.temporary().c_str(), "wb"));
     if (!file) failWith("can't write", path, errno);
     const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
     const bool closed = std::fclose(file.release()) == 0;
-    if (!written || !closed || std::rename(temporary.c_str(), path.c_str()) != 0) {
-        const int error = errno;
-        std::remove(temporary.c_str());
-        failWith("can't write", path, error);
-    }
+    if (!written || !closed) failWith("can't write", path, errno);
+    output.commit();
 }
 
 } // namespace q3rt

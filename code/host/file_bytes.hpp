@@ -1,5 +1,5 @@
 #pragma once
-// Whole files in and out, for the program's commands. Throws ContentError naming the file and the system's reason.
+// Whole files in and out, for the program's commands. Errors name the file and the system's reason.
 
 #include <cstddef>
 #include <filesystem>
@@ -9,7 +9,7 @@
 namespace q3rt {
 
 std::vector<std::byte> readFileBytes(const std::filesystem::path& path);
-/// Into a temporary file beside it, then renamed: nobody ever sees half a file. Makes missing folders.
+/// All at once (host/output_file.hpp): nobody ever sees half a file. Makes missing folders.
 void writeFileBytes(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 } // namespace q3rt

@@ -1,5 +1,5 @@
 // q3rt: play, record, replay, view, measure. Exit status 0: done; 1: failed, and one line on stderr said why; 2: bad
-// arguments.
+// arguments; 128 + signal: the user ended it.
 
 #include <cstdio>
 #include <exception>
@@ -7,12 +7,14 @@
 #include <CLI/CLI.hpp>
 
 #include "host/commands.hpp"
+#include "host/interrupt.hpp"
 
 int main(int argc, char** argv) {
     CLI::App app("Ray-traced and rasterised Quake III: plays the packaged engine, records, replays and measures",
                  "q3rt");
     app.require_subcommand(1);
     app.set_version_flag("--version", "q3rt " Q3RT_VERSION);
+    q3rt::watchForInterrupts();
     int exitCode = 1;
     q3rt::addDoctorCommand(app, exitCode);
     q3rt::addPlayCommand(app, exitCode);
@@ -31,6 +33,8 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         std::fprintf(stderr, "q3rt: %s; see 'q3rt --help'\n", error.what());
         return 2;
+    } catch (const q3rt::Interrupted& end) {
+        return end.exitCode();
     } catch (const std::exception& error) {
         std::fprintf(stderr, "q3rt: %s\n", error.what());
         return 1;

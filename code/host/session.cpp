@@ -12,6 +12,7 @@
 #include "base/log.hpp"
 #include "formats/image.hpp"
 #include "host/file_bytes.hpp"
+#include "host/interrupt.hpp"
 
 namespace q3rt {
 namespace {
@@ -167,6 +168,7 @@ Progress::~Progress() {
 }
 
 void Progress::advance(size_t done) {
+    throwIfInterrupted();
     using namespace std::chrono;
     const auto now = steady_clock::now();
     const auto interval = m_terminal ? milliseconds(200) : seconds(5);

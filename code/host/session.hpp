@@ -55,7 +55,8 @@ class RecordedFiles : public FileSource {
 
 void writePng(const std::filesystem::path& path, const HostFrame& frame);
 
-/// A line on stderr that says how far a long work is and when it ends; on a terminal it stays one line.
+/// A line on stderr that says how far a long work is and when it ends; on a terminal it stays one line. The place where
+/// the user's Ctrl-C takes effect: advance() throws Interrupted.
 class Progress {
   public:
     Progress(std::string what, size_t total);

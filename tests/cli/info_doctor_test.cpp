@@ -1,3 +1,5 @@
+#include <cstdlib>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -78,6 +80,33 @@ TEST(Doctor, ReportsWhatIsThere) {
     EXPECT_GE(report["checks"].size(), 7u);
     for (const auto& check : report["checks"])
         EXPECT_FALSE(check["finding"] == "problem" && check["remedy"] == "") << check;
+}
+
+TEST(Doctor, FindsTheFetchedDriverByItself) {
+    const char* icd = std::getenv("VK_DRIVER_FILES");
+    if (!icd || !std::filesystem::exists(icd)) GTEST_SKIP() << "needs VK_DRIVER_FILES=$(scripts/lavapipe.sh)";
+    const std::filesystem::path cache = makeScratchFolder("driver cache");
+    const std::vector<std::string> plainShell = {
+        "VK_DRIVER_FILES=", "VK_ADD_DRIVER_FILES=", "VK_ICD_FILENAMES=", "XDG_CACHE_HOME=" + cache.string()};
+    const auto countDevices = [&] {
+        size_t count = 0;
+        const auto report = nlohmann::json::parse(runQ3rt({"doctor", "--json"}, plainShell).output);
+        for (const auto& check : report["checks"])
+            count += check["subject"] == "device";
+        return count;
+    };
+    const size_t before = countDevices();
+    // Links beside each other, as scripts/lavapipe.sh lays the files: the path of the library in the .json is relative.
+    std::filesystem::create_directories(cache / "q3rt");
+    std::filesystem::create_directory_symlink(std::filesystem::path(icd).parent_path(), cache / "q3rt" / "lavapipe");
+    if (!std::filesystem::exists(cache / "q3rt" / "lavapipe" / "lvp_icd.json"))
+        GTEST_SKIP() << "the driver is the system's: there is none to fetch";
+    EXPECT_EQ(countDevices(), before + 1);
+    const std::string text = runQ3rt({"doctor"}, plainShell).output;
+    EXPECT_NE(text.find("added to the machine's own"), std::string::npos) << text;
+    std::vector<std::string> named = plainShell;
+    named[0] = "VK_DRIVER_FILES=" + std::string(icd);
+    EXPECT_NE(runQ3rt({"doctor"}, named).output.find("not added, the environment names drivers"), std::string::npos);
 }
 
 TEST(Doctor, MissingThingsHaveRemedies) {

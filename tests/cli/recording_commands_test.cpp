@@ -68,7 +68,7 @@ TEST(RecordingCommands, WhatIsMissingIsNamed) {
     const std::string out = (folder / "a.q3t").string();
     EXPECT_TRUE(runQ3rt({"record", "--demo", "nosuch", "--out", out}).saysInOneLine("demo088-test1"));
     EXPECT_TRUE(
-        runQ3rt({"record", "--demo", "demo088-test1", "--out", "/nonexistent/a.q3t"}).saysInOneLine("/nonexistent"));
+        runQ3rt({"record", "--demo", "demo088-test1", "--out", "/proc/nowhere/a.q3t"}).saysInOneLine("/proc/nowhere"));
     EXPECT_TRUE(runQ3rt({"view", "--map", "nosuch", "--renderer", "null", "--out", (folder / "a.png").string()})
                     .saysInOneLine("nosuch"));
     EXPECT_TRUE(

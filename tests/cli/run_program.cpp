@@ -1,7 +1,8 @@
 #include "run_program.hpp"
 
 #include <algorithm>
-#include <cstdlib>
+#include <csignal>
+#include <fcntl.h>
 #include <fstream>
 #include <iterator>
 #include <sys/wait.h>
@@ -28,17 +29,62 @@ const fs::path& scratchRoot() {
     return root.path;
 }
 
-std::string quote(const std::string& text) {
-    std::string quoted = "'";
-    for (const char c : text)
-        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return quoted + "'";
-}
-
 std::string readText(const fs::path& path) {
     std::ifstream stream(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
 }
+
+/// A process of q3rt whose output goes to files of its own.
+class Process {
+  public:
+    Process(const std::vector<std::string>& arguments, const std::vector<std::string>& environment) {
+        std::vector<std::string> words = {"env"}, set; // env takes its options before its assignments
+        for (const std::string& entry : environment) {
+            if (!entry.ends_with('='))
+                set.push_back(entry);
+            else
+                words.insert(words.end(), {"-u", entry.substr(0, entry.size() - 1)});
+        }
+        words.insert(words.end(), set.begin(), set.end());
+        words.push_back(std::string(Q3RT_BUILD_DIR) + "/q3rt");
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        std::vector<char*> pointers;
+        for (std::string& word : words)
+            pointers.push_back(word.data());
+        pointers.push_back(nullptr);
+        const std::string output = m_output.string(), errors = m_errors.string();
+        m_process = fork();
+        if (m_process != 0) return;
+        const auto redirect = [](const char* file, int flags, int number) {
+            const int opened = open(file, flags, 0600);
+            dup2(opened, number);
+            close(opened);
+        };
+        redirect("/dev/null", O_RDONLY, STDIN_FILENO);
+        redirect(output.c_str(), O_CREAT | O_TRUNC | O_WRONLY, STDOUT_FILENO);
+        redirect(errors.c_str(), O_CREAT | O_TRUNC | O_WRONLY, STDERR_FILENO);
+        execvp("env", pointers.data());
+        _exit(127);
+    }
+    void send(int signal) const { kill(m_process, signal); }
+    bool hasEnded() const {
+        siginfo_t info{};
+        return waitid(P_PID, static_cast<id_t>(m_process), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid != 0;
+    }
+    ProgramResult wait() {
+        int status = 0;
+        waitpid(m_process, &status, 0);
+        ProgramResult result;
+        if (WIFEXITED(status)) result.exitCode = WEXITSTATUS(status);
+        result.output = readText(m_output);
+        result.errors = readText(m_errors);
+        return result;
+    }
+
+  private:
+    const fs::path m_output = scratchRoot() / "stdout", m_errors = scratchRoot() / "stderr";
+    pid_t m_process = -1;
+};
 
 } // namespace
 
@@ -48,23 +94,17 @@ bool ProgramResult::saysInOneLine(const std::string& part) const {
 }
 
 ProgramResult runQ3rt(const std::vector<std::string>& arguments, const std::vector<std::string>& environment) {
-    const fs::path output = scratchRoot() / "stdout", errors = scratchRoot() / "stderr";
-    // env takes its options before its assignments.
-    std::string unset, set;
-    for (const std::string& entry : environment)
-        entry.ends_with('=') ? unset += " -u " + quote(entry.substr(0, entry.size() - 1)) : set += " " + quote(entry);
-    std::string command = "env" + unset + set;
-    command += " " + quote(std::string(Q3RT_BUILD_DIR) + "/q3rt");
-    for (const std::string& argument : arguments)
-        command += " " + quote(argument);
-    command += " </dev/null >" + quote(output.string()) + " 2>" + quote(errors.string());
-    const int status = std::system(command.c_str());
-    ProgramResult result;
-    // The shell reports a signal's end as 128 + its number.
-    if (WIFEXITED(status) && WEXITSTATUS(status) < 128) result.exitCode = WEXITSTATUS(status);
-    result.output = readText(output);
-    result.errors = readText(errors);
-    return result;
+    return Process(arguments, environment).wait();
+}
+
+ProgramResult interruptQ3rt(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
+                            int signal, const std::function<bool()>& isUnderWay) {
+    constexpr int kStepMs = 20, kMostMs = 60000;
+    Process process(arguments, environment);
+    for (int waitedMs = 0; waitedMs < kMostMs && !process.hasEnded() && !isUnderWay(); waitedMs += kStepMs)
+        usleep(kStepMs * 1000);
+    process.send(signal);
+    return process.wait();
 }
 
 fs::path makeScratchFolder(const std::string& name) {

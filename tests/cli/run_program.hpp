@@ -2,6 +2,7 @@
 // Runs build/q3rt as a user would.
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,10 @@ struct ProgramResult {
 
 /// `environment` entries are NAME=value; an empty value unsets.
 ProgramResult runQ3rt(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {});
+
+/// The same, with `signal` sent as soon as `isUnderWay` (or after a minute).
+ProgramResult interruptQ3rt(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
+                            int signal, const std::function<bool()>& isUnderWay);
 
 /// A fresh empty folder of this process, removed at exit.
 std::filesystem::path makeScratchFolder(const std::string& name);
