@@ -5,7 +5,6 @@
 #include "spirv/rt_denoise_filter_comp.hpp"
 #include "spirv/rt_denoise_gradient_comp.hpp"
 #include "spirv/rt_denoise_gradient_filter_comp.hpp"
-#include "spirv/rt_denoise_guide_comp.hpp"
 #include "spirv/rt_denoise_project_comp.hpp"
 #include "spirv/rt_denoise_temporal_comp.hpp"
 #include "spirv/rt_denoise_variance_comp.hpp"
@@ -20,8 +19,7 @@ struct StageCode {
 };
 
 /// In the order of DenoiseStage.
-const StageCode kStages[kDenoiseStageCount] = {{"denoise guide", shaders::rt_denoise_guide_comp},
-                                               {"denoise project", shaders::rt_denoise_project_comp},
+const StageCode kStages[kDenoiseStageCount] = {{"denoise project", shaders::rt_denoise_project_comp},
                                                {"denoise carry", shaders::rt_denoise_carry_comp},
                                                {"denoise gradient", shaders::rt_denoise_gradient_comp},
                                                {"denoise gradient filter", shaders::rt_denoise_gradient_filter_comp},

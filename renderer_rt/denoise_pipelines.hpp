@@ -8,8 +8,8 @@
 
 namespace q3rt {
 
-enum class DenoiseStage { Guide, Project, Carry, Gradient, GradientFilter, Temporal, Variance, Filter };
-inline constexpr size_t kDenoiseStageCount = 8;
+enum class DenoiseStage { Project, Carry, Gradient, GradientFilter, Temporal, Variance, Filter };
+inline constexpr size_t kDenoiseStageCount = 7;
 
 class DenoisePipelines {
   public:

@@ -18,6 +18,7 @@ void TraceRenderer::drawWorldView(FrameGraph& graph, FrameTargets& targets, cons
     resources.radiance = graph.importBuffer("radiance", buffers.radiance);
     resources.means = graph.importBuffer("means", buffers.means);
     resources.picture = graph.importBuffer("picture", buffers.picture);
+    if (buffers.guides) importGuides(graph, resources, *buffers.guides);
     DenoiseResources denoise;
     if (buffers.denoise) denoise = importDenoise(graph, *buffers.denoise);
 

@@ -229,24 +229,35 @@ void TraceRenderer::prepareHistory(const FrameCommands& frame, const SceneView& 
     const bool antialiased = m_settings.rt_taa && !m_settings.rt_accumulate;
     buffers.turnHistory(context().device(), denoised, antialiased);
     if (!denoised && !antialiased) return;
-    buffers.motion.advance({.camera = cameraOf(out),
-                            .timeMs = scene.timeMs,
-                            .sampleFrame = out.frame,
-                            .pictureNumber = m_pictureNumber,
-                            .settingsKey = settingsKey(),
-                            .entities = findPlaces(frame, scene, m_geometry)});
-    const VkDeviceAddress toCurrent = m_scene->keepForFrame(std::span(buffers.motion.toCurrent()));
-    const VkDeviceAddress toPrevious = m_scene->keepForFrame(std::span(buffers.motion.toPrevious()));
+    ViewInstant now{.camera = cameraOf(out),
+                    .timeMs = scene.timeMs,
+                    .sampleFrame = out.frame,
+                    .pictureNumber = m_pictureNumber,
+                    .settingsKey = settingsKey(),
+                    .entities = findEntities(frame, scene, m_geometry)};
+    now.instances = findInstances(m_scene->tables(), m_geometry, now.corners);
+    for (const RtInstance& instance : m_scene->tables().instances)
+        now.indexAddress.push_back(instance.indices);
+    ViewMotion& motion = buffers.motion;
+    motion.advance(std::move(now));
+    const VkDeviceAddress corners = m_scene->keepForFrame(std::span(motion.current().corners));
+    const VkDeviceAddress previousCorners = m_scene->keepForFrame(std::span(motion.previous().corners));
+    out.flags |= kFrameHistory;
+    out.motionToPrevious = m_scene->keepForFrame(std::span<const RtMotion>(motion.toPrevious(previousCorners)));
+    out.guides = buffers.guides->guides.address();
+    out.pasts = buffers.guides->pasts.address();
+    out.previousEye = motion.previous().camera.eye;
     if (denoised) {
         if (!m_denoisePipelines) m_denoisePipelines = std::make_unique<DenoisePipelines>(context().device());
-        const RtDenoise table = describeDenoise(buffers, toCurrent, toPrevious);
+        const VkDeviceAddress toCurrent = m_scene->keepForFrame(std::span<const RtMotion>(motion.toCurrent(corners)));
+        const RtDenoise table = describeDenoise(buffers, toCurrent);
         buffers.denoise->table = m_scene->keepForFrame(std::span<const RtDenoise>(&table, 1));
     }
     if (antialiased) {
         if (!m_taaPipeline)
             m_taaPipeline =
                 ComputePipeline(context().device(), {"taa", {shaders::rt_taa_comp, {}}, {{}, sizeof(RtTaaPush)}});
-        const RtTaa table = describeTaa(buffers, toPrevious);
+        const RtTaa table = describeTaa(buffers);
         buffers.taa->table = m_scene->keepForFrame(std::span<const RtTaa>(&table, 1));
         // The mean over frames wants one jitter for the whole picture, evenly spread over the frames.
         out.flags |= kFrameSharedJitter;

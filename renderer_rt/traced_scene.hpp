@@ -38,6 +38,8 @@ class TracedScene {
     void beginFrame();
     /// Tables of one view; nothing is recorded yet. `lights` are the view's dynamic ones.
     TracedView prepare(const ViewGeometry& geometry, std::span<const SceneLight> lights, const PortalScene& portals);
+    /// Of the view prepared last.
+    const ViewTables& tables() const { return m_tables; }
     /// Writes `view.frame` where the shaders find it.
     void finish(const TracedView& view);
     /// Keeps a table where shaders find it, for this frame.

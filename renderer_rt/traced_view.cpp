@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include "renderer_rt/triangle_sort.hpp"
 
@@ -57,7 +58,12 @@ Visibility visibilityOf(uint32_t flags) {
     return v;
 }
 
-const std::vector<uint32_t>& TriangleOrderCache::find(const ModelSurface* source, std::span<const Vertex> vertices,
+uint64_t sourceKey(const EntitySurface& surface) {
+    if (surface.source) return reinterpret_cast<uintptr_t>(surface.source);
+    return surface.worldSurface >= 0 ? static_cast<uint64_t>(surface.worldSurface) + 1 : 0;
+}
+
+const std::vector<uint32_t>& TriangleOrderCache::find(uint64_t source, std::span<const Vertex> vertices,
                                                       std::span<const uint32_t> indices) {
     std::vector<uint32_t>& order = source ? m_orders[source] : m_scratch;
     // A text deform may change the count of triangles from frame to frame.
@@ -145,7 +151,7 @@ void ViewTableBuilder::appendTriangles(const ViewGeometry& geometry, DynamicPart
     for (size_t i = 0; i < part.surfaces.size(); ++i) {
         const EntitySurface& surface = geometry.surfaces[part.surfaces[i]];
         const std::span<const uint32_t> indices(geometry.indices.data() + surface.firstIndex, surface.indexCount);
-        for (const uint32_t triangle : m_orders.find(surface.source, geometry.vertices, indices)) {
+        for (const uint32_t triangle : m_orders.find(sourceKey(surface), geometry.vertices, indices)) {
             for (size_t corner = 0; corner < 3; ++corner)
                 out.indices.push_back(indices[3 * triangle + corner] - low);
             out.surfaceOfTriangle.push_back(static_cast<uint32_t>(i));
@@ -175,7 +181,7 @@ void ViewTableBuilder::addModelPart(const ViewGeometry& geometry, const EntitySu
 
 void ViewTableBuilder::addDynamicParts(const World* world, const ViewGeometry& geometry, ModelGeometry& models,
                                        ViewTables& out) {
-    std::map<std::pair<uint32_t, SurfaceClass>, DynamicPart> groups;
+    std::map<std::tuple<uint32_t, SurfaceClass, bool>, DynamicPart> groups;
     for (uint32_t s = 0; s < geometry.surfaces.size(); ++s) {
         const EntitySurface& surface = geometry.surfaces[s];
         const auto surfaceClass = classifySurface(m_materials.drawn(surface.material));
@@ -184,8 +190,9 @@ void ViewTableBuilder::addDynamicParts(const World* world, const ViewGeometry& g
             addModelPart(geometry, surface, *surfaceClass, models, out);
             continue;
         }
-        DynamicPart& part = groups[{surface.entity, *surfaceClass}];
+        DynamicPart& part = groups[{surface.entity, *surfaceClass, surface.isPoly}];
         part.entity = surface.entity;
+        part.isPoly = surface.isPoly;
         part.surfaceClass = *surfaceClass;
         part.surfaces.push_back(s);
     }

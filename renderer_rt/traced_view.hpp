@@ -17,7 +17,8 @@ namespace q3rt {
 struct DynamicPart {
     uint32_t entity = 0;
     SurfaceClass surfaceClass = SurfaceClass::Solid;
-    std::vector<uint32_t> surfaces;             ///< in ViewGeometry::surfaces
+    bool isPoly = false;            ///< scene polys are apart: they come and go, the world's deformed surfaces stay
+    std::vector<uint32_t> surfaces; ///< in ViewGeometry::surfaces
     uint32_t firstIndex = 0, triangleCount = 0; ///< in ViewTables::indices; relative to firstVertex
     uint32_t firstVertex = 0, vertexCount = 0;  ///< in ViewGeometry::vertices
 };
@@ -46,16 +47,20 @@ struct ViewTables {
     void clear();
 };
 
-/// Remembers the good order of triangles of each model surface, which does not change with its animation.
+/// What a surface is made of anew in each frame: a number for each model and world surface; 0 for what has no such
+/// source.
+uint64_t sourceKey(const EntitySurface& surface);
+
+/// Remembers the good order of triangles of each model and world surface: it does not change with animation.
 class TriangleOrderCache {
   public:
-    /// `indices` absolute in `vertices`. `source` null: no memory.
-    const std::vector<uint32_t>& find(const ModelSurface* source, std::span<const Vertex> vertices,
+    /// `indices` absolute in `vertices`. `source`: sourceKey(); 0: no memory.
+    const std::vector<uint32_t>& find(uint64_t source, std::span<const Vertex> vertices,
                                       std::span<const uint32_t> indices);
     void clear() { m_orders.clear(); }
 
   private:
-    std::unordered_map<const ModelSurface*, std::vector<uint32_t>> m_orders;
+    std::unordered_map<uint64_t, std::vector<uint32_t>> m_orders;
     std::vector<uint32_t> m_scratch;
 };
 

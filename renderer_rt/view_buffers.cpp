@@ -17,11 +17,14 @@ VkExtent2D strataOf(VkExtent2D extent) {
             (extent.height + kStratumPixels - 1) / kStratumPixels};
 }
 
+GuideBuffers::GuideBuffers(Device& device, VkExtent2D extent)
+    : guides(makeViewBuffer(device, extent, sizeof(RtGuide), "guides"))
+    , previousGuides(makeViewBuffer(device, extent, sizeof(RtGuide), "previous guides"))
+    , pasts(makeViewBuffer(device, extent, sizeof(RtPast), "pasts")) {}
+
 DenoiseBuffers::DenoiseBuffers(Device& device, VkExtent2D extent)
     : previousPixels(makeViewBuffer(device, extent, sizeof(RtPixel), "previous pixels"))
     , previousIrradiance(makeViewBuffer(device, extent, sizeof(vec4), "previous irradiance"))
-    , guides(makeViewBuffer(device, extent, sizeof(RtGuide), "guides"))
-    , previousGuides(makeViewBuffer(device, extent, sizeof(RtGuide), "previous guides"))
     , light(makeViewBuffer(device, extent, sizeof(vec4), "light"))
     , previousLight(makeViewBuffer(device, extent, sizeof(vec4), "previous light"))
     , moments(makeViewBuffer(device, extent, sizeof(vec2), "moments"))
@@ -45,24 +48,23 @@ TaaBuffers::TaaBuffers(Device& device, VkExtent2D extent)
     , previousHistory(makeViewBuffer(device, extent, sizeof(vec4), "taa previous history")) {}
 
 void ViewBuffers::turnHistory(Device& device, bool denoised, bool antialiased) {
-    if (denoised != (denoise != nullptr)) {
-        denoise = denoised ? std::make_unique<DenoiseBuffers>(device, area.extent) : nullptr;
-        motion = ViewMotion();
-    }
-    if (antialiased != (taa != nullptr)) {
-        taa = antialiased ? std::make_unique<TaaBuffers>(device, area.extent) : nullptr;
-        motion = ViewMotion();
-    }
+    const VkExtent2D extent = area.extent;
+    if (denoised != (denoise != nullptr) || antialiased != (taa != nullptr)) motion = ViewMotion();
+    if (denoised != (denoise != nullptr))
+        denoise = denoised ? std::make_unique<DenoiseBuffers>(device, extent) : nullptr;
+    if (antialiased != (taa != nullptr)) taa = antialiased ? std::make_unique<TaaBuffers>(device, extent) : nullptr;
+    const bool guided = denoised || antialiased;
+    if (guided != (guides != nullptr)) guides = guided ? std::make_unique<GuideBuffers>(device, extent) : nullptr;
+    if (guides) std::swap(guides->guides, guides->previousGuides);
     if (taa) std::swap(taa->history, taa->previousHistory);
     if (!denoise) return;
     std::swap(pixels, denoise->previousPixels);
     std::swap(irradiance, denoise->previousIrradiance);
-    std::swap(denoise->guides, denoise->previousGuides);
     std::swap(denoise->light, denoise->previousLight);
     std::swap(denoise->moments, denoise->previousMoments);
 }
 
-RtDenoise describeDenoise(const ViewBuffers& buffers, VkDeviceAddress toCurrent, VkDeviceAddress toPrevious) {
+RtDenoise describeDenoise(const ViewBuffers& buffers, VkDeviceAddress motionToCurrent) {
     const DenoiseBuffers& denoise = *buffers.denoise;
     const ViewMotion& motion = buffers.motion;
     RtDenoise table{};
@@ -70,8 +72,9 @@ RtDenoise describeDenoise(const ViewBuffers& buffers, VkDeviceAddress toCurrent,
     table.previousPixels = denoise.previousPixels.address();
     table.irradiance = buffers.irradiance.address();
     table.previousIrradiance = denoise.previousIrradiance.address();
-    table.guides = denoise.guides.address();
-    table.previousGuides = denoise.previousGuides.address();
+    table.guides = buffers.guides->guides.address();
+    table.previousGuides = buffers.guides->previousGuides.address();
+    table.pasts = buffers.guides->pasts.address();
     table.light = denoise.light.address();
     table.previousLight = denoise.previousLight.address();
     table.moments = denoise.moments.address();
@@ -81,8 +84,7 @@ RtDenoise describeDenoise(const ViewBuffers& buffers, VkDeviceAddress toCurrent,
         table.gradients[i] = denoise.gradients[i].address();
         table.filtered[i] = denoise.filtered[i].address();
     }
-    table.motionToCurrent = toCurrent;
-    table.motionToPrevious = toPrevious;
+    table.motionToCurrent = motionToCurrent;
     table.camera = motion.current().camera;
     table.previousCamera = motion.previous().camera;
     const VkExtent2D size = buffers.area.extent, strata = strataOf(size);
@@ -96,13 +98,13 @@ RtDenoise describeDenoise(const ViewBuffers& buffers, VkDeviceAddress toCurrent,
     return table;
 }
 
-RtTaa describeTaa(const ViewBuffers& buffers, VkDeviceAddress toPrevious) {
+RtTaa describeTaa(const ViewBuffers& buffers) {
     RtTaa table{};
-    table.pixels = buffers.pixels.address();
+    table.guides = buffers.guides->guides.address();
+    table.pasts = buffers.guides->pasts.address();
     table.picture = buffers.picture.address();
     table.history = buffers.taa->history.address();
     table.previousHistory = buffers.taa->previousHistory.address();
-    table.motionToPrevious = toPrevious;
     table.camera = buffers.motion.current().camera;
     table.previousCamera = buffers.motion.previous().camera;
     table.size = {buffers.area.extent.width, buffers.area.extent.height};

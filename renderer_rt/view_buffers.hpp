@@ -17,9 +17,15 @@ Buffer makeViewBuffer(Device& device, VkExtent2D extent, size_t bytes, const cha
 /// Strata of a picture, those at the right and lower edges perhaps cut.
 VkExtent2D strataOf(VkExtent2D extent);
 
+/// What finds a pixel's place in the frame before.
+struct GuideBuffers {
+    Buffer guides, previousGuides; ///< RtGuide[]
+    Buffer pasts;                  ///< RtPast[]
+    GuideBuffers(Device& device, VkExtent2D extent);
+};
+
 struct DenoiseBuffers {
     Buffer previousPixels, previousIrradiance;
-    Buffer guides, previousGuides;
     Buffer light, previousLight;
     Buffer moments, previousMoments;
     Buffer winners;
@@ -41,6 +47,7 @@ struct ViewBuffers {
     VkRect2D area{}; ///< on the target
     Buffer pixels, irradiance, radiance, means, picture;
     ViewMotion motion;
+    std::unique_ptr<GuideBuffers> guides;    ///< null: there is no history of any kind
     std::unique_ptr<DenoiseBuffers> denoise; ///< null: no denoiser
     std::unique_ptr<TaaBuffers> taa;         ///< null: no temporal anti-aliasing
     uint32_t lastPicture = 0;                ///< number of the last drawn frame that used it
@@ -51,8 +58,8 @@ struct ViewBuffers {
     const Buffer& shown() const { return taa ? taa->history : picture; }
 };
 
-/// The denoiser's table for the frame. The motion's tables are where `toCurrent` and `toPrevious` say.
-RtDenoise describeDenoise(const ViewBuffers& buffers, VkDeviceAddress toCurrent, VkDeviceAddress toPrevious);
-RtTaa describeTaa(const ViewBuffers& buffers, VkDeviceAddress toPrevious);
+/// The denoiser's table for the frame. `motionToCurrent`: RtMotion[] of the previous frame's instances.
+RtDenoise describeDenoise(const ViewBuffers& buffers, VkDeviceAddress motionToCurrent);
+RtTaa describeTaa(const ViewBuffers& buffers);
 
 } // namespace q3rt

@@ -1,54 +1,72 @@
 #include "renderer_rt/view_motion.hpp"
 
 #include <limits>
-#include <optional>
+#include <map>
 
 namespace q3rt {
 
 namespace {
 
-/// An eye that moves farther in one frame has been put somewhere else: the fastest player (knocked about, 1,000 qu/s)
-/// needs a quarter of a second for it.
+/// An eye or an entity that moves farther in one frame has been put somewhere else: the fastest player (knocked about,
+/// 1,000 qu/s) needs a quarter of a second for it, the fastest missile (2,500 qu/s) a tenth.
 constexpr float kCutDistanceQu = 256.0f;
 
-bool hasSameIdentity(const EntityPlace& a, const EntityPlace& b) {
-    if (!a.moves || !b.moves) return a.moves == b.moves;
-    return a.rigid && b.rigid && a.inlineModel == b.inlineModel && a.model == b.model && a.frame == b.frame &&
-           a.oldFrame == b.oldFrame && a.backLerp == b.backLerp && a.flags == b.flags;
+bool isSameKind(const EntityPlace& a, const EntityPlace& b) {
+    return a.moves == b.moves && a.kind == b.kind && a.inlineModel == b.inlineModel && a.model == b.model &&
+           a.skin == b.skin && a.skinNumber == b.skinNumber && a.shader == b.shader && a.flags == b.flags &&
+           a.startSeconds == b.startSeconds;
 }
 
-/// Points from one placement to another.
-RtMotion makeMotion(const mat4& from, const mat4& to) {
+void setRows(vec4 (&rows)[3], const glm::dmat4& matrix) {
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 4; ++column)
+            rows[row][column] = static_cast<float>(matrix[column][row]);
+}
+
+/// World there from world here, of surfaces that keep their shape.
+RtMotion makeMotion(const mat4& here, const mat4& there) {
     RtMotion motion{};
     motion.kind = kMotionNone;
-    if (from == to) return motion;
-    const glm::dmat4 source(from);
+    if (here == there) return motion;
+    const glm::dmat4 source(here);
     if (glm::determinant(source) == 0) {
         motion.kind = kMotionUnknown;
         return motion;
     }
-    const glm::dmat4 moved = glm::dmat4(to) * glm::inverse(source);
-    for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 4; ++column)
-            motion.rows[row][column] = static_cast<float>(moved[column][row]);
+    setRows(motion.rows, glm::dmat4(there) * glm::inverse(source));
     motion.kind = kMotionRigid;
     return motion;
 }
 
-vec3 originOf(const EntityPlace& place) { return vec3(place.worldFromModel[3]); }
+/// One corner after the other; triangles are those of the current frame.
+RtMotion makeShapeMotion(const mat4& here, const mat4& there, VkDeviceAddress corners, VkDeviceAddress indices) {
+    RtMotion motion = makeMotion(here, there);
+    if (motion.kind == kMotionUnknown) return motion;
+    if (motion.kind == kMotionNone) setRows(motion.rows, glm::dmat4(1.0));
+    setRows(motion.shapeRows, glm::dmat4(there));
+    motion.corners = corners;
+    motion.indices = indices;
+    motion.kind = kMotionShape;
+    return motion;
+}
 
-/// The nearest entity of the same identity that nobody has taken yet.
-std::optional<size_t> findAgain(const EntityPlace& wanted, const std::vector<EntityPlace>& among,
-                                const std::vector<bool>& taken) {
+/// Where it should be after a time, if it goes on as it did.
+vec3 expectedAnchor(const EntityPlace& place, int elapsedMs) {
+    return place.anchor + place.velocity * static_cast<float>(elapsedMs);
+}
+
+/// The nearest of the same kind among those not taken; by number if several are as near.
+std::optional<size_t> findNearest(const EntityPlace& wanted, const vec3& at, const std::vector<EntityPlace>& among,
+                                  const std::vector<vec3>& anchors, const std::vector<bool>& taken) {
     std::optional<size_t> best;
-    float bestDistance = std::numeric_limits<float>::max();
+    float bestDistance2 = kCutDistanceQu * kCutDistanceQu;
     for (size_t i = 0; i < among.size(); ++i) {
-        if (taken[i] || !hasSameIdentity(wanted, among[i])) continue;
-        const vec3 apart = originOf(among[i]) - originOf(wanted);
-        const float distance = glm::dot(apart, apart);
-        if (distance >= bestDistance) continue;
+        if (taken[i] || !isSameKind(wanted, among[i])) continue;
+        const vec3 apart = anchors[i] - at;
+        const float distance2 = glm::dot(apart, apart);
+        if (distance2 > bestDistance2 || (best && distance2 == bestDistance2)) continue;
         best = i;
-        bestDistance = distance;
+        bestDistance2 = distance2;
     }
     return best;
 }
@@ -63,25 +81,28 @@ RtCamera cameraOf(const RtFrame& frame) {
             .forwardUnit = frame.forwardUnit};
 }
 
-std::vector<EntityPlace> findPlaces(const FrameCommands& frame, const SceneView& scene, const ViewGeometry& geometry) {
-    std::vector<EntityPlace> places;
-    for (const EntityRecord& record : geometry.entities) {
-        EntityPlace& place = places.emplace_back();
-        place.worldFromModel = record.worldFromModel;
-        place.inlineModel = record.inlineModel;
-        place.flags = record.flags;
-        place.moves = record.sceneIndex >= 0;
-        if (!place.moves) continue;
-        const SceneEntity& entity = frame.entities[scene.firstEntity + static_cast<uint32_t>(record.sceneIndex)];
-        place.rigid = entity.kind == EntityKind::Model;
-        place.model = entity.model;
-        place.frame = entity.frame;
-        place.oldFrame = entity.oldFrame;
-        place.backLerp = entity.frame == entity.oldFrame ? 0.0f : entity.backLerp;
+std::vector<std::optional<size_t>> matchEntities(const std::vector<EntityPlace>& now,
+                                                 const std::vector<EntityPlace>& before, int elapsedMs) {
+    std::vector<std::optional<size_t>> found(now.size());
+    std::vector<bool> matched(now.size(), false), taken(before.size(), false);
+    std::vector<vec3> anchors, expected;
+    for (const EntityPlace& place : now)
+        anchors.push_back(place.anchor);
+    for (const EntityPlace& place : before)
+        expected.push_back(expectedAnchor(place, elapsedMs));
+    // Two that are each other's nearest belong together; then the rest. Each round that finds none is the last.
+    for (bool again = true; again;) {
+        again = false;
+        for (size_t i = 0; i < now.size(); ++i) {
+            if (matched[i]) continue;
+            const std::optional<size_t> there = findNearest(now[i], anchors[i], before, expected, taken);
+            if (!there) continue;
+            if (findNearest(before[*there], expected[*there], now, anchors, matched) != i) continue;
+            found[i] = there;
+            matched[i] = taken[*there] = again = true;
+        }
     }
-    for (const EntitySurface& surface : geometry.surfaces)
-        if (surface.deformed) places[surface.entity].rigid = false;
-    return places;
+    return found;
 }
 
 void ViewMotion::advance(ViewInstant now) {
@@ -91,22 +112,58 @@ void ViewMotion::advance(ViewInstant now) {
                    m_current.timeMs >= m_previous.timeMs && m_current.settingsKey == m_previous.settingsKey &&
                    glm::distance(m_current.camera.eye, m_previous.camera.eye) <= kCutDistanceQu;
     m_started = true;
-    matchEntities();
+    m_previousOf.assign(m_current.instances.size(), std::nullopt);
+    if (m_continuous) matchInstances();
 }
 
-void ViewMotion::matchEntities() {
-    m_toCurrent.assign(m_previous.entities.size(), RtMotion{});
-    m_toPrevious.assign(m_current.entities.size(), RtMotion{});
-    std::vector<bool> taken(m_previous.entities.size(), false);
-    for (size_t i = 0; i < m_current.entities.size(); ++i) {
-        const EntityPlace& place = m_current.entities[i];
-        const std::optional<size_t> before = findAgain(place, m_previous.entities, taken);
-        if (!before) continue;
-        taken[*before] = true;
-        const mat4& old = m_previous.entities[*before].worldFromModel;
-        m_toPrevious[i] = makeMotion(place.worldFromModel, old);
-        m_toCurrent[*before] = makeMotion(old, place.worldFromModel);
+void ViewMotion::matchInstances() {
+    const int elapsedMs = m_current.timeMs - m_previous.timeMs;
+    const auto entityBefore = matchEntities(m_current.entities, m_previous.entities, elapsedMs);
+    for (size_t e = 0; e < m_current.entities.size(); ++e) {
+        EntityPlace& place = m_current.entities[e];
+        if (!entityBefore[e]) continue;
+        const EntityPlace& old = m_previous.entities[*entityBefore[e]];
+        place.velocity = elapsedMs > 0 ? (place.anchor - old.anchor) / static_cast<float>(elapsedMs) : old.velocity;
     }
+    std::map<std::pair<size_t, uint64_t>, size_t> before;
+    for (size_t i = 0; i < m_previous.instances.size(); ++i)
+        before.emplace(std::pair(m_previous.instances[i].entity, m_previous.instances[i].key), i);
+    for (size_t i = 0; i < m_current.instances.size(); ++i) {
+        const InstancePlace& place = m_current.instances[i];
+        if (!entityBefore[place.entity]) continue;
+        const auto found = before.find({*entityBefore[place.entity], place.key});
+        if (found != before.end()) m_previousOf[i] = found->second;
+    }
+}
+
+std::vector<RtMotion> ViewMotion::toPrevious(VkDeviceAddress corners) const {
+    std::vector<RtMotion> out(m_current.instances.size());
+    for (size_t i = 0; i < out.size(); ++i) {
+        if (!m_previousOf[i]) continue;
+        const InstancePlace &here = m_current.instances[i], &there = m_previous.instances[*m_previousOf[i]];
+        const mat4& from = m_current.entities[here.entity].worldFromModel;
+        const mat4& to = m_previous.entities[there.entity].worldFromModel;
+        out[i] = here.changesShape
+                     ? makeShapeMotion(from, to, corners + there.firstCorner * sizeof(vec3), m_current.indexAddress[i])
+                     : makeMotion(from, to);
+    }
+    return out;
+}
+
+std::vector<RtMotion> ViewMotion::toCurrent(VkDeviceAddress corners) const {
+    std::vector<RtMotion> out(m_previous.instances.size());
+    for (size_t i = 0; i < m_previousOf.size(); ++i) {
+        if (!m_previousOf[i]) continue;
+        const InstancePlace &there = m_current.instances[i], &here = m_previous.instances[*m_previousOf[i]];
+        const mat4& from = m_previous.entities[here.entity].worldFromModel;
+        const mat4& to = m_current.entities[there.entity].worldFromModel;
+        RtMotion& motion = out[*m_previousOf[i]];
+        if (!there.changesShape)
+            motion = makeMotion(from, to);
+        else if (there.keepsOrder)
+            motion = makeShapeMotion(from, to, corners + there.firstCorner * sizeof(vec3), m_current.indexAddress[i]);
+    }
+    return out;
 }
 
 } // namespace q3rt

@@ -1,24 +1,14 @@
 #pragma once
-// How a view and what it shows have moved since the frame before: cameras, entities found again, and whether there is
-// a frame before at all. Pure CPU.
+// How a view and what it shows have moved since the frame before: cameras, entities and instances found again, and
+// whether there is a frame before at all. Pure CPU.
 
+#include <optional>
 #include <vector>
 
-#include "scene/entity_geometry.hpp"
+#include "renderer_rt/view_places.hpp"
 #include "shaders/shared/rt_motion.h"
 
 namespace q3rt {
-
-/// One entity of a view, with what tells it from others. The engine numbers entities for itself only.
-struct EntityPlace {
-    bool moves = true;    ///< false: the world
-    bool rigid = false;   ///< its surfaces are the same in every frame with this identity
-    int inlineModel = -1; ///< such models are in a view once
-    int model = 0, frame = 0, oldFrame = 0;
-    float backLerp = 0;
-    uint32_t flags = 0;
-    mat4 worldFromModel{1.0f};
-};
 
 /// One frame of a view.
 struct ViewInstant {
@@ -28,10 +18,17 @@ struct ViewInstant {
     uint32_t pictureNumber = 0; ///< counts drawn frames
     std::vector<uint32_t> settingsKey;
     std::vector<EntityPlace> entities;
+    std::vector<InstancePlace> instances;
+    std::vector<vec3> corners;                 ///< of all changing shapes, model space
+    std::vector<VkDeviceAddress> indexAddress; ///< by instance: of its triangles, for this frame
 };
 
 RtCamera cameraOf(const RtFrame& frame);
-std::vector<EntityPlace> findPlaces(const FrameCommands& frame, const SceneView& scene, const ViewGeometry& geometry);
+
+/// For each of `now` its number among `before`: the nearest that is the same kind of thing, both ways. Things are
+/// looked for where their motion has carried them; what has just appeared has none.
+std::vector<std::optional<size_t>> matchEntities(const std::vector<EntityPlace>& now,
+                                                 const std::vector<EntityPlace>& before, int elapsedMs);
 
 class ViewMotion {
   public:
@@ -41,16 +38,16 @@ class ViewMotion {
     bool isContinuous() const { return m_continuous; }
     const ViewInstant& current() const { return m_current; }
     const ViewInstant& previous() const { return m_previous; }
-    /// By entity of the previous frame.
-    const std::vector<RtMotion>& toCurrent() const { return m_toCurrent; }
-    /// By entity of the current frame.
-    const std::vector<RtMotion>& toPrevious() const { return m_toPrevious; }
+    /// By instance of the previous frame. `corners`: where those of the current one lie.
+    std::vector<RtMotion> toCurrent(VkDeviceAddress corners) const;
+    /// By instance of the current frame. `corners`: where those of the previous one lie.
+    std::vector<RtMotion> toPrevious(VkDeviceAddress corners) const;
 
   private:
-    void matchEntities();
+    void matchInstances();
 
     ViewInstant m_current, m_previous;
-    std::vector<RtMotion> m_toCurrent, m_toPrevious;
+    std::vector<std::optional<size_t>> m_previousOf; ///< by instance of the current frame
     bool m_started = false, m_continuous = false;
 };
 

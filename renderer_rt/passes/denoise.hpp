@@ -11,7 +11,6 @@ namespace q3rt {
 /// The graph's handles of the denoiser's buffers, in their newest versions.
 struct DenoiseResources {
     BufferId previousPixels, previousIrradiance;
-    BufferId guides, previousGuides;
     BufferId light, previousLight;
     BufferId moments, previousMoments;
     BufferId winners;
@@ -28,7 +27,7 @@ struct DenoiseWork {
 
 DenoiseResources importDenoise(FrameGraph& graph, DenoiseBuffers& buffers);
 
-/// Before "direct": samples of the last frame find their pixels in this one. "denoise guide", "denoise project",
+/// Before "direct": samples of the last frame find their pixels in this one. "denoise clear", "denoise project",
 /// "denoise carry".
 void addDenoiseProjection(FrameGraph& graph, ViewResources& resources, DenoiseResources& denoise,
                           const DenoiseWork& work);
@@ -42,8 +41,10 @@ void addDenoiseGradient(FrameGraph& graph, const ViewResources& resources, Denoi
 void addDenoiseTemporal(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
                         const DenoiseWork& work);
 /// "denoise variance".
-void addDenoiseVariance(FrameGraph& graph, DenoiseResources& denoise, const DenoiseWork& work);
+void addDenoiseVariance(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
+                        const DenoiseWork& work);
 /// "denoise filter".
-void addDenoiseFilter(FrameGraph& graph, DenoiseResources& denoise, const DenoiseWork& work);
+void addDenoiseFilter(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
+                      const DenoiseWork& work);
 
 } // namespace q3rt

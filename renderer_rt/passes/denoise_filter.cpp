@@ -2,11 +2,12 @@
 
 namespace q3rt {
 
-void addDenoiseVariance(FrameGraph& graph, DenoiseResources& denoise, const DenoiseWork& work) {
+void addDenoiseVariance(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
+                        const DenoiseWork& work) {
     graph.addPass(
         "denoise variance",
         [&](PassBuilder& pass) {
-            pass.read(denoise.guides, access::kComputeRead);
+            pass.read(resources.guides, access::kComputeRead);
             pass.read(denoise.light, access::kComputeRead);
             pass.read(denoise.moments, access::kComputeRead);
             denoise.filtered[0] = pass.write(denoise.filtered[0], access::kComputeWrite);
@@ -16,12 +17,13 @@ void addDenoiseVariance(FrameGraph& graph, DenoiseResources& denoise, const Deno
         });
 }
 
-void addDenoiseFilter(FrameGraph& graph, DenoiseResources& denoise, const DenoiseWork& work) {
+void addDenoiseFilter(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
+                      const DenoiseWork& work) {
     for (uint32_t level = 0; level < kFilterLevels; ++level)
         graph.addPass(
             "denoise filter",
             [&](PassBuilder& pass) {
-                pass.read(denoise.guides, access::kComputeRead);
+                pass.read(resources.guides, access::kComputeRead);
                 pass.read(denoise.filtered[level & 1], access::kComputeRead);
                 BufferId& to = denoise.filtered[(level + 1) & 1];
                 to = pass.write(to, access::kComputeWrite);
@@ -35,8 +37,8 @@ void addDenoiseFilter(FrameGraph& graph, DenoiseResources& denoise, const Denois
 void addDenoise(FrameGraph& graph, ViewResources& resources, DenoiseResources& denoise, const DenoiseWork& work) {
     if (work.hasHistory) addDenoiseGradient(graph, resources, denoise, work);
     addDenoiseTemporal(graph, resources, denoise, work);
-    addDenoiseVariance(graph, denoise, work);
-    addDenoiseFilter(graph, denoise, work);
+    addDenoiseVariance(graph, resources, denoise, work);
+    addDenoiseFilter(graph, resources, denoise, work);
     resources.lighting = denoise.filtered[kFilterLevels & 1];
 }
 

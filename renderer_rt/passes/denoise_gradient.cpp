@@ -20,7 +20,7 @@ void addDenoiseGradient(FrameGraph& graph, const ViewResources& resources, Denoi
         graph.addPass(
             "denoise gradient filter",
             [&](PassBuilder& pass) {
-                pass.read(denoise.guides, access::kComputeRead);
+                pass.read(resources.guides, access::kComputeRead);
                 pass.read(denoise.gradients[level & 1], access::kComputeRead);
                 BufferId& to = denoise.gradients[(level + 1) & 1];
                 to = pass.write(to, access::kComputeWrite);

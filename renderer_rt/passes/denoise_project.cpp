@@ -6,8 +6,6 @@ DenoiseResources importDenoise(FrameGraph& graph, DenoiseBuffers& buffers) {
     DenoiseResources out;
     out.previousPixels = graph.importBuffer("previous pixels", buffers.previousPixels);
     out.previousIrradiance = graph.importBuffer("previous irradiance", buffers.previousIrradiance);
-    out.guides = graph.importBuffer("guides", buffers.guides);
-    out.previousGuides = graph.importBuffer("previous guides", buffers.previousGuides);
     out.light = graph.importBuffer("light", buffers.light);
     out.previousLight = graph.importBuffer("previous light", buffers.previousLight);
     out.moments = graph.importBuffer("moments", buffers.moments);
@@ -22,22 +20,19 @@ DenoiseResources importDenoise(FrameGraph& graph, DenoiseBuffers& buffers) {
 
 void addDenoiseProjection(FrameGraph& graph, ViewResources& resources, DenoiseResources& denoise,
                           const DenoiseWork& work) {
-    graph.addPass(
-        "denoise guide",
-        [&](PassBuilder& pass) {
-            pass.read(resources.pixels, access::kComputeRead);
-            denoise.guides = pass.write(denoise.guides, access::kComputeWrite);
-            denoise.winners = pass.write(denoise.winners, access::kComputeWrite);
-        },
-        [work](PassContext& pass) {
-            work.pipelines.dispatch(pass.commands(), DenoiseStage::Guide, {.denoise = work.table}, work.extent);
-        });
     if (!work.hasHistory) return;
+    graph.addPass(
+        "denoise clear",
+        [&](PassBuilder& pass) { denoise.winners = pass.write(denoise.winners, access::kTransferWrite); },
+        [winners = denoise.winners](PassContext& pass) {
+            vkCmdFillBuffer(pass.commands(), pass.buffer(winners), 0, VK_WHOLE_SIZE, kNoWinner);
+        });
     graph.addPass(
         "denoise project",
         [&](PassBuilder& pass) {
             pass.read(denoise.previousPixels, access::kComputeRead);
-            pass.read(denoise.guides, access::kComputeRead);
+            pass.read(resources.previousGuides, access::kComputeRead);
+            pass.read(resources.guides, access::kComputeRead);
             denoise.winners = pass.write(denoise.winners, access::kComputeWrite);
         },
         [work](PassContext& pass) {
@@ -48,9 +43,11 @@ void addDenoiseProjection(FrameGraph& graph, ViewResources& resources, DenoiseRe
         "denoise carry",
         [&](PassBuilder& pass) {
             pass.read(denoise.previousPixels, access::kComputeRead);
+            pass.read(resources.previousGuides, access::kComputeRead);
             pass.read(denoise.winners, access::kComputeRead);
             resources.pixels = pass.write(resources.pixels, access::kComputeWrite);
-            denoise.guides = pass.write(denoise.guides, access::kComputeWrite);
+            resources.guides = pass.write(resources.guides, access::kComputeWrite);
+            resources.pasts = pass.write(resources.pasts, access::kComputeWrite);
         },
         [work](PassContext& pass) {
             work.pipelines.dispatch(pass.commands(), DenoiseStage::Carry, {.denoise = work.table},

@@ -7,11 +7,11 @@ void addDenoiseTemporal(FrameGraph& graph, const ViewResources& resources, Denoi
     graph.addPass(
         "denoise temporal",
         [&](PassBuilder& pass) {
-            pass.read(resources.pixels, access::kComputeRead);
             pass.read(resources.irradiance, access::kComputeRead);
-            pass.read(denoise.guides, access::kComputeRead);
+            pass.read(resources.guides, access::kComputeRead);
             if (work.hasHistory) {
-                pass.read(denoise.previousGuides, access::kComputeRead);
+                pass.read(resources.pasts, access::kComputeRead);
+                pass.read(resources.previousGuides, access::kComputeRead);
                 pass.read(denoise.previousLight, access::kComputeRead);
                 pass.read(denoise.previousMoments, access::kComputeRead);
                 pass.read(denoise.gradients[kGradientLevels & 1], access::kComputeRead);

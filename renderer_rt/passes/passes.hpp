@@ -3,6 +3,7 @@
 
 #include "renderer_rt/stage_pipelines.hpp"
 #include "renderer_rt/traced_scene.hpp"
+#include "renderer_rt/view_buffers.hpp"
 #include "renderer_vk/raster_scene.hpp"
 #include "shaders/shared/rt_output.h"
 
@@ -10,13 +11,14 @@ namespace q3rt {
 
 /// The graph's handles of one view, in their newest versions.
 struct ViewResources {
-    BufferId structures; ///< a token: orders builds and traces
-    BufferId pixels;     ///< RtPixel[]
-    BufferId irradiance; ///< vec4[]
-    BufferId lighting;   ///< vec4[]: irradiance, or what the denoiser made of it
-    BufferId radiance;   ///< vec4[]: running mean, kept between frames
-    BufferId means;      ///< RtMean[], kept between frames
-    BufferId picture;    ///< vec4[]: exposed
+    BufferId structures;                    ///< a token: orders builds and traces
+    BufferId pixels;                        ///< RtPixel[]
+    BufferId guides, previousGuides, pasts; ///< RtGuide[], RtPast[]: if there is a history
+    BufferId irradiance;                    ///< vec4[]
+    BufferId lighting;                      ///< vec4[]: irradiance, or what the denoiser made of it
+    BufferId radiance;                      ///< vec4[]: running mean, kept between frames
+    BufferId means;                         ///< RtMean[], kept between frames
+    BufferId picture;                       ///< vec4[]: exposed
 };
 
 /// What the passes of one view share while they record.
@@ -30,7 +32,9 @@ struct ViewWork {
 
 /// "acceleration": structures of what moves, then the top level.
 void addAcceleration(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
-/// "primary": camera rays to RtPixel.
+/// For a view with a history.
+void importGuides(FrameGraph& graph, ViewResources& resources, GuideBuffers& buffers);
+/// "primary": camera rays to RtPixel, and to guides and pasts if these are imported.
 void addPrimary(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
 /// "direct": shadow rays to irradiance.
 void addDirect(FrameGraph& graph, ViewResources& resources, const ViewWork& work);

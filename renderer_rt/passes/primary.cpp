@@ -2,12 +2,21 @@
 
 namespace q3rt {
 
+void importGuides(FrameGraph& graph, ViewResources& resources, GuideBuffers& buffers) {
+    resources.guides = graph.importBuffer("guides", buffers.guides);
+    resources.previousGuides = graph.importBuffer("previous guides", buffers.previousGuides);
+    resources.pasts = graph.importBuffer("pasts", buffers.pasts);
+}
+
 void addPrimary(FrameGraph& graph, ViewResources& resources, const ViewWork& work) {
     graph.addPass(
         "primary",
         [&](PassBuilder& pass) {
             pass.read(resources.structures, work.pipelines.structureRead());
             resources.pixels = pass.write(resources.pixels, work.pipelines.bufferWrite());
+            if (!resources.guides) return;
+            resources.guides = pass.write(resources.guides, work.pipelines.bufferWrite());
+            resources.pasts = pass.write(resources.pasts, work.pipelines.bufferWrite());
         },
         [work](PassContext& pass) {
             work.pipelines.dispatch(pass.commands(), TraceStage::Primary, makeStageInput(pass, work));

@@ -10,7 +10,8 @@ void addTaa(FrameGraph& graph, ViewResources& resources, TaaBuffers& buffers, co
     resources.picture = graph.addPass(
         "taa",
         [&](PassBuilder& pass) {
-            pass.read(resources.pixels, access::kComputeRead);
+            pass.read(resources.guides, access::kComputeRead);
+            pass.read(resources.pasts, access::kComputeRead);
             pass.read(resources.picture, access::kComputeRead);
             pass.read(previous, access::kComputeRead);
             if (gradients) pass.read(gradients, access::kComputeRead);

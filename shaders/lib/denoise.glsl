@@ -6,8 +6,9 @@
 #include "shared/constants.h"
 
 // Unit normals in 32 bits (octahedral map: Cigolle et al. 2014, "A Survey of Efficient Representations for Independent
-// Unit Vectors"). packSnorm2x16 never gives -32768, which marks pixels without a surface.
+// Unit Vectors"). packSnorm2x16 never gives -32768, which marks pixels that take no light or have no past.
 const uint kNoNormal = 0x80008000u;
+const uint kNoPast = 0x80008001u;
 
 uint packNormal(vec3 n)
 {
@@ -87,11 +88,14 @@ float varianceOfMean(vec2 moments, float n) { return max(moments.y - moments.x *
 // Relative changes from this on say that nothing of the old light is left to use.
 const float kFullChange = 0.1f;
 
-// How much of the history is wrong: A-SVGF, equation 4, steeper. A gradient of an unchanged point is exactly 0, so no
-// steady light loses history by it.
+// How much of the history is to be dropped: A-SVGF, equation 4, steeper. A mean that forgets a share a of itself in each
+// frame lags a light that changes by g a frame by g / a and keeps noise in proportion to a; the sum of both squares is
+// least where a^3 goes with g^2. A gradient of an unchanged point is exactly 0, so no steady light loses history by it.
 float historyLoss(vec2 gradient)
 {
-    return gradient.y > 0.0f ? clamp(abs(gradient.x) / (kFullChange * gradient.y), 0.0f, 1.0f) : 0.0f;
+    if (gradient.y <= 0.0f)
+        return 0.0f;
+    return min(pow(abs(gradient.x) / (kFullChange * gradient.y), 2.0f / 3.0f), 1.0f);
 }
 
 // Share of the new sample in the mean: 1/n while nothing changes, more where the history is wrong.

@@ -8,7 +8,6 @@
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer DenoiseTable { RtDenoise value; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PixelTable { RtPixel at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer GuideTable { RtGuide at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer ColorTable { vec4 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer PairTable { vec2 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer WinnerTable { uint at[]; };

@@ -15,19 +15,22 @@ void main()
     uint winner = WinnerTable(denoise.winners).at[stratum];
     if (winner == kNoWinner)
         return;
-    RtPixel old = PixelTable(denoise.previousPixels).at[pixelIndex(
-        pixelOfStratum(winnerStratum(winner), winnerFromPixel(winner)))];
-    RtMotion motion = MotionTable(denoise.motionToCurrent).at[old.entity];
-    HitPoint point = movePoint(motion, HitPoint(old.position, old.error));
-    vec3 seen = movePoint(motion, HitPoint(old.seen, old.error)).position;
+    uint from = pixelIndex(pixelOfStratum(winnerStratum(winner), winnerFromPixel(winner)));
+    RtPixel old = PixelTable(denoise.previousPixels).at[from];
+    RtGuide oldGuide = GuideTable(denoise.previousGuides).at[from];
+    RtMotion motion = MotionTable(denoise.motionToCurrent).at[old.instance];
+    HitPoint point =
+        movePoint(motion, old.triangle, unpackUnorm2x16(old.barycentric), HitPoint(old.position, old.error));
+    vec3 seen = old.lit == kLitTurned ? oldGuide.position : point.position;
     vec3 normal = moveDirection(motion, old.normal);
     uint index = pixelIndex(pixelOfStratum(stratum, winnerToPixel(winner)));
     PixelTable(denoise.pixels).at[index].position = point.position;
-    PixelTable(denoise.pixels).at[index].seen = seen;
     PixelTable(denoise.pixels).at[index].error = point.error;
     PixelTable(denoise.pixels).at[index].normal = normal;
     PixelTable(denoise.pixels).at[index].geometricNormal = moveDirection(motion, old.geometricNormal);
     PixelTable(denoise.pixels).at[index].keyPixel = old.keyPixel;
     PixelTable(denoise.pixels).at[index].keyFrame = old.keyFrame;
     GuideTable(denoise.guides).at[index] = RtGuide(seen, packNormal(normal));
+    PastTable(denoise.pasts).at[index].position = oldGuide.position;
+    PastTable(denoise.pasts).at[index].normal = oldGuide.normal;
 }

@@ -13,7 +13,7 @@ bool mayCarry(uvec2 pixel)
     if (!isInside(ivec2(pixel)))
         return false;
     uint index = pixelIndex(pixel);
-    return PixelTable(denoise.previousPixels).at[index].lit != 0u &&
+    return PixelTable(denoise.previousPixels).at[index].lit != kLitNot &&
            PixelTable(denoise.previousPixels).at[index].keyFrame == denoise.previousFrame;
 }
 
@@ -21,11 +21,14 @@ void projectSample(uint stratum, uint number)
 {
     uvec2 from = pixelOfStratum(stratum, number);
     RtPixel old = PixelTable(denoise.previousPixels).at[pixelIndex(from)];
-    RtMotion motion = MotionTable(denoise.motionToCurrent).at[old.entity];
-    if (motion.kind == kMotionUnknown)
+    vec3 oldSeen = GuideTable(denoise.previousGuides).at[pixelIndex(from)].position;
+    RtMotion motion = MotionTable(denoise.motionToCurrent).at[old.instance];
+    // What moves in a mirror is not followed: the way there is not kept.
+    if (motion.kind == kMotionUnknown || (motion.kind != kMotionNone && old.lit == kLitTurned))
         return;
-    vec3 point = movePoint(motion, HitPoint(old.seen, old.error)).position;
-    vec3 before = projectTo(denoise.previousCamera, old.seen);
+    vec3 point =
+        movePoint(motion, old.triangle, unpackUnorm2x16(old.barycentric), HitPoint(oldSeen, old.error)).position;
+    vec3 before = projectTo(denoise.previousCamera, oldSeen);
     vec3 after = projectTo(denoise.camera, point);
     if (before.z <= 0.0 || after.z <= 0.0)
         return;

@@ -62,14 +62,14 @@ History findHistory(uvec2 pixel, RtGuide guide)
     History none = History(vec4(0.0), vec2(0.0), 0.0);
     if ((denoise.flags & kDenoiseHistory) == 0u)
         return none;
-    RtMotion motion = MotionTable(denoise.motionToPrevious).at[PixelTable(denoise.pixels).at[pixelIndex(pixel)].entity];
+    RtPast past = PastTable(denoise.pasts).at[pixelIndex(pixel)];
     vec3 now = projectTo(denoise.camera, guide.position);
-    Searched searched;
-    searched.position = movePoint(motion, HitPoint(guide.position, vec3(0.0))).position;
-    searched.normal = moveDirection(motion, unpackNormal(guide.normal));
-    vec3 before = projectTo(denoise.previousCamera, searched.position);
-    if (motion.kind == kMotionUnknown || now.z <= 0.0 || before.z <= 0.0)
+    vec3 before = projectTo(denoise.previousCamera, past.position);
+    if (past.normal == kNoPast || now.z <= 0.0 || before.z <= 0.0)
         return none;
+    Searched searched;
+    searched.position = past.position;
+    searched.normal = unpackNormal(past.normal);
     searched.footprint = denoise.pixelTangent * before.z;
     searched.cosine = cosineFrom(denoise.previousCamera, searched.position, searched.normal);
     // The difference of both projections, not the second alone: pixels jittered within their area stay in place.

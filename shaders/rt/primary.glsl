@@ -7,8 +7,12 @@
 #include "lib/random.glsl"
 #include "rt/accept.glsl"
 #include "rt/lights.glsl"
+#include "rt/past.glsl"
 #include "rt/sky.glsl"
 #include "rt/turn.glsl"
+
+// A layer that lets less than this through hides what is behind it.
+const float kHidingShare = 0.5;
 
 // Numbers of a ray's parts: near depth range 0, far one 1, one more for each turn; of a reflection from here on.
 const uint kReflectionPart = 32u;
@@ -26,13 +30,29 @@ struct Picture {
     vec3 passed; // what the layers so far let through
     RtPixel pixel;
     float weightSum; // of the layers that take light
-    vec3 direction;  // of the camera ray
+    vec2 at;         // where the camera ray goes through the picture, pixels
     uint turns;      // of the ray so far
     bool reflected;  // `reflection` has been used
     Reflection reflection;
+    bool followed; // there are guide and past
+    RtGuide guide;
+    RtPast past;
 };
 
-void addLayer(inout Picture picture, SurfacePoint point, MaterialColor color, float t, float random)
+// Histories follow the lit layer, or else the first that hides most of what is behind it.
+void followLayer(inout Picture picture, CameraRay ray, SurfacePoint point, SurfacePlace place, uint normal)
+{
+    if ((rtFrame.flags & kFrameHistory) == 0u)
+        return;
+    picture.followed = true;
+    CameraRay straight = makeCameraRay(picture.at);
+    picture.guide.position = picture.turns == 0u ? point.hit.position : straight.origin + straight.direction * place.t;
+    picture.guide.normal = normal;
+    picture.past = findPast(picture.guide, place, point, straight, ray);
+}
+
+void addLayer(inout Picture picture, CameraRay ray, SurfacePoint point, SurfacePlace place, MaterialColor color,
+              float random)
 {
     picture.pixel.emission += picture.passed * color.glow;
     vec3 albedo = picture.passed * color.albedo;
@@ -40,17 +60,22 @@ void addLayer(inout Picture picture, SurfacePoint point, MaterialColor color, fl
     if (weight > 0.0) {
         picture.weightSum += weight;
         if (random * picture.weightSum < weight) {
-            picture.pixel.lit = 1u;
+            picture.pixel.lit = picture.turns == 0u ? kLitStraight : kLitTurned;
             picture.pixel.position = point.hit.position;
-            picture.pixel.seen = picture.turns == 0u ? point.hit.position : rtFrame.eye + picture.direction * t;
             picture.pixel.error = point.hit.error;
             picture.pixel.geometricNormal = point.geometricNormal;
             // A surface seen from behind is lit on the side that is seen.
             picture.pixel.normal = point.frontFace ? point.normal : -point.normal;
             picture.pixel.albedo = albedo / weight;
-            picture.pixel.entity = picture.turns == 0u ? point.entity : 0u;
+            picture.pixel.instance = place.instance;
+            picture.pixel.triangle = place.triangle;
+            picture.pixel.barycentric = packUnorm2x16(place.barycentric);
+            followLayer(picture, ray, point, place, packNormal(picture.pixel.normal));
         }
     }
+    float through = max(color.through.x, max(color.through.y, color.through.z));
+    if (!picture.followed && through < kHidingShare)
+        followLayer(picture, ray, point, place, kNoNormal);
     picture.passed *= color.through;
 }
 
@@ -85,7 +110,8 @@ bool addHit(inout Picture picture, inout CameraRay ray, uint instance, uint tria
     if ((point.surface.flags & (kSurfaceWater | kSurfaceGlass)) != 0u &&
         addReflection(picture, ray, point, t, random.y))
         return true;
-    addLayer(picture, point, shadeSurface(point, ray.origin, ray.forward), t, random.x);
+    addLayer(picture, ray, point, SurfacePlace(instance, triangle, barycentric, t),
+             shadeSurface(point, ray.origin, ray.forward), random.x);
     if (point.surface.portal == 0u || !point.frontFace || picture.passed == vec3(0.0))
         return false;
     turnThroughPortal(ray, PortalTable(rtFrame.portals).at[point.surface.portal - 1u], t,
@@ -118,17 +144,14 @@ bool addLayers(inout Picture picture, inout CameraRay ray, float tMax, float lim
 
 // One depth range: layers and solids by turns until nothing behind shows. A solid that lets something through (the
 // accept function samples the finest texels, shading the filtered ones) is passed at the next number after its
-// distance. True: the ray has turned. `first` becomes the first solid's distance, 0 if there is none.
-bool addRange(inout Picture picture, inout CameraRay ray, uvec4 key, out float first)
+// distance. True: the ray has turned.
+bool addRange(inout Picture picture, inout CameraRay ray, uvec4 key)
 {
-    first = 0.0;
     float from = ray.from;
     float farthest = ray.from + rtFrame.farQu;
     bool layered = false;
     for (;;) {
         Hit solid = traceClosest(ray.origin, ray.direction, from, farthest, ray.solidMask, true);
-        if (first == 0.0)
-            first = solid.t;
         if ((rtFrame.flags & kFrameLayers) != 0u && !layered) {
             // Layers behind a solid that lets light through are rare and shown in front of what is behind it.
             float limit = solid.t > 0.0 ? solid.t : farthest;
@@ -162,25 +185,24 @@ void addSky(inout Picture picture, CameraRay ray)
                                                         ray.directionY);
 }
 
-// Follows a ray through the near depth range, the far one and all turns. Returns the unfolded distance of the first
-// solid after the last turn. `part` numbers the ray's parts for random numbers.
-float addRay(inout Picture picture, CameraRay ray, bool near, uint part, uvec4 key)
+// Follows a ray through the near depth range, the far one and all turns. `part` numbers the ray's parts for random
+// numbers.
+void addRay(inout Picture picture, CameraRay ray, bool near, uint part, uvec4 key)
 {
-    float distance = 0.0;
     for (;;) {
         if (near) {
             ray.solidMask = kMaskNearSolid;
             ray.layerMask = kMaskNearLayer;
         }
-        bool turned = addRange(picture, ray, key ^ uvec4(0u, 0u, 0u, 0x9e3779b9u * part), distance);
+        bool turned = addRange(picture, ray, key ^ uvec4(0u, 0u, 0u, 0x9e3779b9u * part));
         ++part;
         if (picture.passed == vec3(0.0))
-            return distance;
+            return;
         if (turned && picture.turns == rtFrame.reflectionDepth)
-            return distance;
+            return;
         if (!turned && !near) {
             addSky(picture, ray);
-            return distance;
+            return;
         }
         if (turned) {
             ++picture.turns;
@@ -192,43 +214,54 @@ float addRay(inout Picture picture, CameraRay ray, bool near, uint part, uvec4 k
     }
 }
 
+// The sky is followed as something as far as the map is large, which does not come nearer.
+void keepPlace(Picture picture, uvec2 pixelPosition)
+{
+    if (!picture.followed) {
+        vec3 direction = makeCameraRay(picture.at).direction;
+        picture.guide = RtGuide(rtFrame.eye + direction * rtFrame.farQu, kNoNormal);
+        picture.past = RtPast(rtFrame.previousEye + direction * rtFrame.farQu, kNoNormal, 0.0);
+    }
+    GuideTable(rtFrame.guides).at[pixelIndex(pixelPosition)] = picture.guide;
+    PastTable(rtFrame.pasts).at[pixelIndex(pixelPosition)] = picture.past;
+}
+
 void primaryPixel(uvec2 pixelPosition)
 {
     uvec4 key = randomKey(pixelPosition);
     vec2 inPixel = vec2(0.5);
     if ((rtFrame.flags & kFrameAntialiasing) != 0u)
         inPixel = (rtFrame.flags & kFrameSharedJitter) != 0u ? rtFrame.jitter : randomNumbers(key, kDimensionLens).xy;
-    CameraRay ray = makeCameraRay(vec2(pixelPosition) + inPixel);
     Picture picture;
+    picture.at = vec2(pixelPosition) + inPixel;
+    CameraRay ray = makeCameraRay(picture.at);
     picture.passed = vec3(1.0);
     picture.weightSum = 0.0;
-    picture.direction = ray.direction;
+    picture.followed = false;
     picture.turns = 0u;
     picture.reflected = false;
     picture.reflection = Reflection(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
-    picture.pixel = RtPixel(vec3(0.0), 0u, vec3(0.0), 0.0, vec3(0.0), vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0),
-                            vec3(0.0), vec3(0.0), packKeyPixel(pixelPosition), rtFrame.frame, 0u);
+    picture.pixel = RtPixel(vec3(0.0), kLitNot, vec3(0.0), vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0), vec3(0.0),
+                            vec3(0.0), packKeyPixel(pixelPosition), rtFrame.frame, 0u, 0u, 0u);
     bool near = (rtFrame.flags & kFrameNearEntities) != 0u;
     uint part = near ? 0u : 1u;
-    float distance = 0.0;
     // Once for the camera ray, once more for a reflection of it.
     for (;;) {
-        float reached = addRay(picture, ray, near, part, key);
-        if (part < kReflectionPart)
-            distance = reached;
+        addRay(picture, ray, near, part, key);
         if (picture.reflection.passed == vec3(0.0))
             break;
         picture.passed = picture.reflection.passed;
         picture.reflection.passed = vec3(0.0);
         picture.turns = 1u;
-        ray = makeCameraRay(vec2(pixelPosition) + inPixel);
+        ray = makeCameraRay(picture.at);
         turnAtPlane(ray, picture.reflection.position, picture.reflection.normal, picture.reflection.t);
         near = false;
         part = kReflectionPart;
     }
     picture.pixel.albedo *= picture.weightSum;
-    picture.pixel.distance = distance;
     PixelTable(rtFrame.pixels).at[pixelIndex(pixelPosition)] = picture.pixel;
+    if ((rtFrame.flags & kFrameHistory) != 0u)
+        keepPlace(picture, pixelPosition);
 }
 
 #endif

@@ -13,7 +13,6 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer TaaTable { RtTaa value; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer PixelTable { RtPixel at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer ColorTable { vec4 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer PairTable { vec2 at[]; };
 layout(push_constant, scalar) uniform Push { RtTaaPush push; };
@@ -33,7 +32,7 @@ ivec2 findNearest(ivec2 pixel)
     float best = 0.0;
     for (int i = 0; i < 9; ++i) {
         ivec2 tap = pixel + ivec2(i % 3 - 1, i / 3 - 1);
-        float distance = PixelTable(taa.pixels).at[indexOf(tap)].distance;
+        float distance = PastTable(taa.pasts).at[indexOf(tap)].distance;
         if (distance > 0.0 && (best == 0.0 || distance < best)) {
             best = distance;
             nearest = clamp(tap, ivec2(0), ivec2(taa.size) - 1);
@@ -47,25 +46,13 @@ struct Shift {
     bool known;
 };
 
-// How far what a pixel shows was from here in the previous picture. The sky is infinitely far.
+// How far what a pixel shows was from here in the previous picture.
 Shift findShift(ivec2 pixel)
 {
-    RtPixel shown = PixelTable(taa.pixels).at[indexOf(pixel)];
-    vec2 place = (vec2(pixel) + 0.5) / vec2(taa.size);
-    vec3 direction = cameraDirection(taa.camera.forward, taa.camera.left, taa.camera.up, place);
-    vec3 now, old;
-    uint kind = kMotionNone;
-    if (shown.distance == 0.0 && shown.lit == 0u) {
-        now = taa.camera.eye + direction;
-        old = taa.previousCamera.eye + direction;
-    } else {
-        RtMotion motion = MotionTable(taa.motionToPrevious).at[shown.entity];
-        kind = motion.kind;
-        now = shown.lit != 0u ? shown.seen : taa.camera.eye + direction * shown.distance;
-        old = movePoint(motion, HitPoint(now, vec3(0.0))).position;
-    }
-    vec3 here = projectTo(taa.camera, now), there = projectTo(taa.previousCamera, old);
-    return Shift((there.xy - here.xy) * vec2(taa.size), kind != kMotionUnknown && here.z > 0.0 && there.z > 0.0);
+    RtPast past = PastTable(taa.pasts).at[indexOf(pixel)];
+    vec3 here = projectTo(taa.camera, GuideTable(taa.guides).at[indexOf(pixel)].position);
+    vec3 there = projectTo(taa.previousCamera, past.position);
+    return Shift((there.xy - here.xy) * vec2(taa.size), past.normal != kNoPast && here.z > 0.0 && there.z > 0.0);
 }
 
 // Radiance and frames of the previous result at a place between texel centres.

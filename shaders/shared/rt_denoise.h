@@ -18,12 +18,6 @@ SHARED_FLOAT kHistoryLimit = 64.0f;
 // From this many samples on a pixel's own moments give its variance, before that its neighbours'.
 SHARED_FLOAT kTemporalVarianceSamples = 4.0f;
 
-// Where a pixel's light lies: enough to tell whether two pixels show the same surface.
-struct RtGuide {
-    vec3 position;
-    uint normal; // packNormal(), kNoNormal: unlit
-};
-
 SHARED_CONST kDenoiseHistory = 0x1u; // the previous frame's buffers hold something
 
 struct RtDenoise {
@@ -33,6 +27,7 @@ struct RtDenoise {
     SHARED_ADDRESS previousIrradiance;
     SHARED_ADDRESS guides; // RtGuide[]
     SHARED_ADDRESS previousGuides;
+    SHARED_ADDRESS pasts; // RtPast[]
     SHARED_ADDRESS light; // vec4[]: mean L over frames; w: samples in it
     SHARED_ADDRESS previousLight;
     SHARED_ADDRESS moments; // vec2[]: means of luminance and its square
@@ -40,8 +35,7 @@ struct RtDenoise {
     SHARED_ADDRESS winners;      // uint[], a stratum: packWinner() of the sample carried into it, or kNoWinner
     SHARED_ADDRESS gradients[2]; // vec2[], a stratum: change of luminance, and what it is relative to
     SHARED_ADDRESS filtered[2];  // vec4[]: L; w: variance of its luminance
-    SHARED_ADDRESS motionToCurrent;  // RtMotion[], by entity of the previous frame
-    SHARED_ADDRESS motionToPrevious; // RtMotion[], by entity of this frame
+    SHARED_ADDRESS motionToCurrent; // RtMotion[], by instance of the previous frame
     RtCamera camera;
     RtCamera previousCamera;
     SHARED_UVEC2 size;   // pixels

@@ -1,4 +1,4 @@
-// Views and entities of two frames: what turns a place of one picture into that of another.
+// Views and surfaces of two frames: what turns a place of one picture into that of another.
 #ifndef Q3RT_SHARED_RT_MOTION_H
 #define Q3RT_SHARED_RT_MOTION_H
 #include "constants.h"
@@ -17,11 +17,30 @@ struct RtCamera {
 SHARED_CONST kMotionUnknown = 0u; // what shows it starts anew
 SHARED_CONST kMotionNone = 1u;
 SHARED_CONST kMotionRigid = 2u;
+SHARED_CONST kMotionShape = 3u; // its corners move one by one
 
-// World points of one frame in the world of another, for one entity.
+// Surfaces of one instance in another frame.
 struct RtMotion {
-    vec4 rows[3];
-    uint kind; // kMotion*
+    vec4 rows[3];           // world there from world here, of the entity; of a shape: directions only
+    vec4 shapeRows[3];      // shape: world there from model there
+    SHARED_ADDRESS corners; // shape: vec3[], model space there, by vertex
+    SHARED_ADDRESS indices; // shape: uint[3] a triangle, in `corners`
+    uint kind;              // kMotion*
+    uint reserved;
+};
+
+// Where what a pixel shows appears to be: its lit layer, or else the first thing that hides what is behind it; its
+// image where it is seen in a mirror or portal. Enough to tell whether two pixels show the same surface.
+struct RtGuide {
+    vec3 position;
+    uint normal; // packNormal(); kNoNormal: takes no light
+};
+
+// The same in the frame before.
+struct RtPast {
+    vec3 position;
+    uint normal;    // packNormal(), kNoNormal; kNoPast: unknown
+    float distance; // of this frame's guide from the eye, along the ray; 0: the sky
 };
 
 SHARED_END

@@ -140,20 +140,24 @@ struct RtFog {
     uint hasSurface;
 };
 
+SHARED_CONST kLitNot = 0u;      // nothing here takes light
+SHARED_CONST kLitStraight = 1u; // seen along a straight line
+SHARED_CONST kLitTurned = 2u;   // seen in a mirror or portal
+
 // What the primary stage leaves for the others; one a pixel, row by row.
 struct RtPixel {
     vec3 position; // of the lit layer
-    uint lit;      // 0: nothing here takes light
+    uint lit;      // kLit*
     vec3 error;    // of position, see lib/offset.glsl
-    float distance; // along the ray, mirrors and portals unfolded, to the first solid; 0: none
-    vec3 seen;      // where the lit layer appears to be: its position, or its image in a mirror or portal
-    vec3 normal;    // unit, shading, on the eye's side
+    vec3 normal;   // unit, shading, on the eye's side
     vec3 geometricNormal; // unit, on the eye's side
     vec3 albedo;   // A, times what the layers in front let through
     vec3 emission; // B of all layers
     uint keyPixel; // of the direct stage's random numbers: x | y << 16
     uint keyFrame;
-    uint entity; // of the lit layer, in the entity table; 0 where it is seen in a mirror or portal
+    uint instance; // of the lit layer: with the next two its place on the surface, whatever becomes of that
+    uint triangle;
+    uint barycentric; // packUnorm2x16(), of corners 1 and 2
 };
 
 SHARED_CONST kFrameNearEntities = 0x1u;
@@ -165,6 +169,7 @@ SHARED_CONST kFrameSkySurfaces = 0x20u;
 SHARED_CONST kFrameAntialiasing = 0x40u;
 SHARED_CONST kFrameSharedJitter = 0x80u; // all rays at RtFrame::jitter of their pixels
 SHARED_CONST kFrameClampLight = 0x100u;  // the picture shows light as the engine shows a lightmap: at most 1, hue kept
+SHARED_CONST kFrameHistory = 0x200u;     // guides and pasts are wanted
 
 // Means over all samples so far, for a picture that clamps light and not its product with a texture.
 struct RtMean {
@@ -188,6 +193,9 @@ struct RtFrame {
     SHARED_ADDRESS portals;
     SHARED_ADDRESS treeNodes;     // back end `compute`: scene tree over the instances
     SHARED_ADDRESS treeInstances; // in its leaf order
+    SHARED_ADDRESS motionToPrevious; // RtMotion[], by instance of this frame
+    SHARED_ADDRESS guides;           // RtGuide[]
+    SHARED_ADDRESS pasts;            // RtPast[]
     SHARED_ADDRESS pixels;
     SHARED_ADDRESS irradiance; // vec4[]: traced L (1.0 = irradiance 63.75), one a pixel
     SHARED_ADDRESS lighting;   // vec4[]: L that the picture shows: `irradiance`, or what a denoiser made of it
@@ -218,8 +226,10 @@ struct RtFrame {
     uint cullLights; // rt_cullLights
     uint reflectionDepth; // rt_reflectionDepth: mirrors, portals and reflections one after the other
     vec3 forwardUnit;
+    vec3 previousEye;
     vec2 jitter; // in a pixel, [0, 1)
     float exposure; // factor
+    uint reserved;
 };
 
 struct RtPush {

@@ -10,12 +10,12 @@ SHARED_FLOAT kTaaStillLimit = 24.0f;
 SHARED_FLOAT kTaaMovingLimit = 4.0f;
 
 struct RtTaa {
-    SHARED_ADDRESS pixels;           // RtPixel[]
-    SHARED_ADDRESS picture;          // vec4[]: this frame's, exposed
-    SHARED_ADDRESS history;          // vec4[]: the result; w: frames in it
+    SHARED_ADDRESS guides;  // RtGuide[]
+    SHARED_ADDRESS pasts;   // RtPast[]
+    SHARED_ADDRESS picture; // vec4[]: this frame's, exposed
+    SHARED_ADDRESS history; // vec4[]: the result; w: frames in it
     SHARED_ADDRESS previousHistory;
-    SHARED_ADDRESS motionToPrevious; // RtMotion[], by entity of this frame
-    SHARED_ADDRESS gradients;        // vec2[], a stratum: the denoiser's filtered change of light; 0: there is none
+    SHARED_ADDRESS gradients; // vec2[], a stratum: the denoiser's filtered change of light; 0: there is none
     RtCamera camera;
     RtCamera previousCamera;
     SHARED_UVEC2 size; // pixels

@@ -49,16 +49,28 @@ std::vector<RtPixel> DenoiseRig::findSurfaces(const RtFrame& camera) const {
             const float toFloor = direction.z < 0 ? -camera.eye.z / direction.z : 1e9f;
             const float toWall = direction.x > 0 ? (200 - camera.eye.x) / direction.x : 1e9f;
             RtPixel& pixel = pixels.emplace_back();
-            pixel.distance = std::min(toFloor, toWall);
-            pixel.position = camera.eye + direction * pixel.distance;
+            pixel.position = camera.eye + direction * std::min(toFloor, toWall);
             pixel.normal = pixel.geometricNormal = toFloor < toWall ? vec3(0, 0, 1) : vec3(-1, 0, 0);
-            pixel.seen = pixel.position;
-            pixel.lit = pixel.position.z <= 150 ? 1 : 0;
+            pixel.lit = pixel.position.z <= 150 ? kLitStraight : kLitNot;
             pixel.albedo = vec3(1);
             pixel.keyPixel = x | y << 16;
             pixel.keyFrame = m_number;
         }
     return pixels;
+}
+
+void DenoiseRig::uploadSurfaces(const std::vector<RtPixel>& pixels) {
+    std::vector<RtGuide> guides;
+    std::vector<RtPast> pasts;
+    for (const RtPixel& pixel : pixels) {
+        const uint32_t normal = pixel.lit ? shader::packNormal(pixel.normal) : shader::kNoNormal;
+        guides.push_back({pixel.position, normal});
+        pasts.push_back({pixel.position, normal, 1});
+    }
+    m_uploader.upload(m_buffers.pixels, std::span<const RtPixel>(pixels));
+    m_uploader.upload(m_buffers.guides->guides, std::span<const RtGuide>(guides));
+    m_uploader.upload(m_buffers.guides->pasts, std::span<const RtPast>(pasts));
+    m_uploader.flush();
 }
 
 void DenoiseRig::run(const std::function<void(FrameGraph& graph)>& addPasses) {
@@ -91,17 +103,19 @@ RigFrame DenoiseRig::draw(const vec3& eye, const LightFunction& light) {
                               .sampleFrame = m_number,
                               .pictureNumber = m_number,
                               .settingsKey = {},
-                              .entities = {world}});
-    const Buffer toCurrent = makeTable(m_buffers.motion.toCurrent());
-    const Buffer toPrevious = makeTable(m_buffers.motion.toPrevious());
-    const Buffer table = makeTable(std::vector{describeDenoise(m_buffers, toCurrent.address(), toPrevious.address())});
+                              .entities = {world},
+                              .instances = {InstancePlace{}},
+                              .corners = {},
+                              .indexAddress = {0}});
+    const Buffer toCurrent = makeTable(m_buffers.motion.toCurrent(0));
+    const Buffer table = makeTable(std::vector{describeDenoise(m_buffers, toCurrent.address())});
     const DenoiseWork work{m_pipelines, table.address(), kRigExtent, m_buffers.motion.isContinuous()};
 
-    m_uploader.upload(m_buffers.pixels, std::span<const RtPixel>(findSurfaces(camera)));
-    m_uploader.flush();
+    uploadSurfaces(findSurfaces(camera));
     run([&](FrameGraph& graph) {
         ViewResources resources;
         resources.pixels = graph.importBuffer("pixels", m_buffers.pixels);
+        importGuides(graph, resources, *m_buffers.guides);
         DenoiseResources denoise = importDenoise(graph, *m_buffers.denoise);
         addDenoiseProjection(graph, resources, denoise, work);
     });
@@ -120,6 +134,7 @@ RigFrame DenoiseRig::draw(const vec3& eye, const LightFunction& light) {
         ViewResources resources;
         resources.pixels = graph.importBuffer("pixels", m_buffers.pixels);
         resources.irradiance = graph.importBuffer("irradiance", m_buffers.irradiance);
+        importGuides(graph, resources, *m_buffers.guides);
         DenoiseResources denoise = importDenoise(graph, *m_buffers.denoise);
         addDenoise(graph, resources, denoise, work);
     });

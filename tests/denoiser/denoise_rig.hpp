@@ -36,6 +36,7 @@ class DenoiseRig {
   private:
     RtFrame describeCamera(const vec3& eye) const;
     std::vector<RtPixel> findSurfaces(const RtFrame& camera) const;
+    void uploadSurfaces(const std::vector<RtPixel>& pixels);
     void run(const std::function<void(FrameGraph& graph)>& addPasses);
     template <typename T>
     Buffer makeTable(const std::vector<T>& items);

@@ -1,40 +1,17 @@
 // The module with denoiser and temporal anti-aliasing on, in the headless engine, in the room with the square light.
 
-#include <cmath>
 #include <gtest/gtest.h>
-#include <map>
 
-#include "baseq3-test/test_maps.hpp"
-#include "tests/tracer/trace_harness.hpp"
+#include "picture_tools.hpp"
 
 namespace q3rt {
 namespace {
 
 using test::Camera;
+using test::errorOf;
+using test::meanOf;
+using test::TestGame;
 using test::TraceHarness;
-
-class TestGame : public FileSource {
-  public:
-    TestGame() {
-        for (auto& [name, bytes] : buildTestGameFiles())
-            m_files[name] = std::move(bytes);
-    }
-    std::optional<std::vector<std::byte>> read(std::string_view name) override {
-        const auto found = m_files.find(std::string(name));
-        if (found == m_files.end()) return std::nullopt;
-        return found->second;
-    }
-    std::vector<std::string> list(std::string_view directory, std::string_view extension) override {
-        const std::string prefix = std::string(directory) + "/";
-        std::vector<std::string> names;
-        for (const auto& [name, bytes] : m_files)
-            if (name.starts_with(prefix) && name.ends_with(extension)) names.push_back(name.substr(prefix.size()));
-        return names;
-    }
-
-  private:
-    std::map<std::string, std::vector<std::byte>> m_files;
-};
 
 constexpr int kWidth = 48, kHeight = 36; ///< pixels
 const Camera kCamera{.eye = {-200, -180, 100}, .pitch = 10, .yaw = 40};
@@ -70,27 +47,6 @@ class DenoisedRoomTest : public testing::Test {
     }
     TestGame m_game;
 };
-
-double meanOf(const FloatImage& image) {
-    double sum = 0;
-    for (const float value : image.rgb)
-        sum += value;
-    return sum / static_cast<double>(image.rgb.size());
-}
-
-double meanOf(const HostFrame& picture) {
-    double sum = 0;
-    for (const uint8_t value : picture.rgb)
-        sum += value;
-    return sum / static_cast<double>(picture.rgb.size());
-}
-
-double errorOf(const FloatImage& image, const FloatImage& reference) {
-    double sum = 0;
-    for (size_t i = 0; i < image.rgb.size(); ++i)
-        sum += std::pow(image.rgb[i] - reference.rgb[i], 2);
-    return std::sqrt(sum / static_cast<double>(image.rgb.size()));
-}
 
 TEST_F(DenoisedRoomTest, ComesCloseToTheReferenceInFewFrames) {
     const FloatImage reference = render({{"rt_accumulate", "1"}}, std::vector<Camera>(400, kCamera));

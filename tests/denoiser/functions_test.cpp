@@ -113,7 +113,7 @@ TEST(Blend, IsAMeanUntilSomethingChanges) {
     EXPECT_EQ(shader::historyLoss({0, 0}), 0) << "no sample says nothing";
     EXPECT_EQ(shader::historyLoss({-1, 1}), 1) << "a light that went out";
     EXPECT_EQ(shader::historyLoss({1, 10}), 1);
-    EXPECT_NEAR(shader::historyLoss({0.1f, 10}), 0.1f, 1e-6f);
+    EXPECT_NEAR(shader::historyLoss({0.1f, 10}), std::pow(0.1, 2.0 / 3.0), 1e-6);
     EXPECT_EQ(shader::varianceOfMean({0.5f, 0.25f}, 8), 0);
     EXPECT_FLOAT_EQ(shader::varianceOfMean({0.5f, 0.5f}, 5), 0.0625f);
 }

@@ -14,8 +14,11 @@
 #include "shared/bvh.h"
 #include "shared/constants.h"
 #include "shared/raster.h"
+#include "shared/rt_denoise.h"
+#include "shared/rt_motion.h"
 #include "shared/rt_output.h"
 #include "shared/rt_scene.h"
+#include "shared/rt_taa.h"
 #include "shared/stage.h"
 #include "shared/vertex.h"
 #pragma GCC diagnostic pop
@@ -29,9 +32,10 @@ constexpr bool areTriviallyCopyable() {
 }
 
 TEST(SharedLayout, StructuresCanBeCopiedToTheDevice) {
-    EXPECT_TRUE((areTriviallyCopyable<Vertex, StageState, BvhNode, BvhTriangle, BvhInstance, RasterEntity, RasterLight,
-                                      RasterFog, RasterDraw, RtInstance, RtSurface, RtEntity, RtTriangleLight, RtLight,
-                                      RtNode, RtFog, RtPixel, RtFrame>()));
+    EXPECT_TRUE(
+        (areTriviallyCopyable<Vertex, StageState, BvhNode, BvhTriangle, BvhInstance, RasterEntity, RasterLight,
+                              RasterFog, RasterDraw, RtInstance, RtSurface, RtEntity, RtTriangleLight, RtLight, RtNode,
+                              RtFog, RtPixel, RtFrame, RtMotion, RtGuide, RtPast, RtDenoise, RtTaa, RtOutput>()));
     EXPECT_EQ(alignof(vec2), 4u);
     EXPECT_EQ(alignof(vec3), 4u);
     EXPECT_EQ(alignof(vec4), 4u);

@@ -3,40 +3,17 @@
 #include <cmath>
 #include <cstdlib>
 #include <gtest/gtest.h>
-#include <map>
 
 #include "base/error.hpp"
-#include "baseq3-test/test_maps.hpp"
+#include "tests/truth/test_game.hpp"
 #include "trace_harness.hpp"
 
 namespace q3rt {
 namespace {
 
 using test::Camera;
+using test::TestGame;
 using test::TraceHarness;
-
-class TestGame : public FileSource {
-  public:
-    TestGame() {
-        for (auto& [name, bytes] : buildTestGameFiles())
-            m_files[name] = std::move(bytes);
-    }
-    std::optional<std::vector<std::byte>> read(std::string_view name) override {
-        const auto found = m_files.find(std::string(name));
-        if (found == m_files.end()) return std::nullopt;
-        return found->second;
-    }
-    std::vector<std::string> list(std::string_view directory, std::string_view extension) override {
-        std::vector<std::string> names;
-        for (const auto& [name, bytes] : m_files)
-            if (name.starts_with(std::string(directory) + "/") && name.ends_with(extension))
-                names.push_back(name.substr(directory.size() + 1));
-        return names;
-    }
-
-  private:
-    std::map<std::string, std::vector<std::byte>> m_files;
-};
 
 constexpr int kWidth = 48, kHeight = 36, kTile = 6; ///< pixels
 const Camera kCamera{.eye = {-200, -180, 100}, .pitch = 10, .yaw = 40};
