@@ -11,25 +11,15 @@ void TraceRenderer::drawWorldView(FrameGraph& graph, FrameTargets& targets, cons
     ViewBuffers& buffers = buffersOf(*area);
     const TracedView& view = prepareView(frame, scene, buffers);
     const ViewWork work{*m_scene, *m_pipelines, context(), view, area->extent};
-    ViewResources resources;
-    resources.structures = graph.importBuffer("structures", ResourceState{});
-    resources.pixels = graph.importBuffer("pixels", buffers.pixels);
-    resources.irradiance = graph.importBuffer("irradiance", buffers.irradiance);
-    resources.radiance = graph.importBuffer("radiance", buffers.radiance);
-    resources.means = graph.importBuffer("means", buffers.means);
-    resources.picture = graph.importBuffer("picture", buffers.picture);
-    if (buffers.guides) importGuides(graph, resources, *buffers.guides);
-    DenoiseResources denoise;
-    if (buffers.denoise) denoise = importDenoise(graph, *buffers.denoise);
+    ViewResources resources = importView(graph, buffers);
 
     if (view.top) addAcceleration(graph, resources, work);
     addPrimary(graph, resources, work);
-    if (buffers.denoise) addDenoiseProjection(graph, resources, denoise, describeDenoiseWork(buffers));
+    if (buffers.denoiser) buffers.denoiser->addBeforeDirect(graph, resources);
     addDirect(graph, resources, work);
-    if (buffers.denoise) addDenoise(graph, resources, denoise, describeDenoiseWork(buffers));
+    if (buffers.denoiser) buffers.denoiser->addAfterDirect(graph, resources);
     addComposite(graph, resources, work);
-    if (buffers.taa)
-        addTaa(graph, resources, *buffers.taa, m_taaPipeline, denoise.gradients[kGradientLevels & 1], area->extent);
+    if (buffers.taa) addTaa(graph, resources, *buffers.taa, m_taaPipeline, area->extent);
     addOutput(graph, resources, targets, work, describeOutput(buffers, *area));
 }
 

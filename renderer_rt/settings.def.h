@@ -9,7 +9,7 @@ SETTING(rt_reflectionDepth, Int, 5, 1, 16, A, "", "mirrors, portals and reflecti
 SETTING(rt_ambient, Float, 1.0f, 0, 4, A, "factor", "of the light grid, for light that no extracted light explains")
 SETTING(rt_antialiasing, Int, 0, 0, 1, A, "", "rays at changing places of a pixel; smooth with rt_taa or rt_accumulate")
 SETTING(rt_accumulate, Int, 0, 0, 1, A, "", "mean of all frames while the view stays the same")
-SETTING(rt_denoiser, Int, 1, 0, 1, A, "", "filters light over frames and neighbours; never with rt_accumulate")
+SETTING(rt_denoiser, Int, 1, 0, 2, A, "", "filters light over frames and neighbours: 1 A-SVGF, 2 SVGF, which does not see change; never with rt_accumulate")
 SETTING(rt_taa, Int, 1, 0, 1, A, "", "averages the picture over frames, following motion; never with rt_accumulate")
 SETTING(rt_exposure, Float, 1.0f, 0.01f, 100, A, "factor", "of light, before the clamp or the curve")
 SETTING(rt_tonemap, Int, 0, 0, 1, A, "", "0 the engine's own look: light clamped as it clamps lightmaps, hue kept; 1 a filmic shoulder")

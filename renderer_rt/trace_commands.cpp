@@ -106,7 +106,7 @@ RunTime TraceRenderer::runStill(VkExtent2D extent, bool filters) {
         input.push = {view.frameSlice.address};
         input.extent = extent;
         m_pipelines->warm(commands, input);
-        if (filters && buffers.denoise) m_denoisePipelines->warm(commands);
+        if (filters && buffers.denoiser) m_denoisePipelines->warm(commands);
         if (filters && buffers.taa) {
             m_taaPipeline.bind(commands);
             m_taaPipeline.push(commands, RtTaaPush{});

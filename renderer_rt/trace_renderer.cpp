@@ -212,7 +212,8 @@ const TracedView& TraceRenderer::prepareView(const FrameCommands& frame, const S
     prepareHistory(frame, scene, buffers, view.frame);
     view.frame.pixels = buffers.pixels.address();
     view.frame.irradiance = buffers.irradiance.address();
-    view.frame.lighting = buffers.denoise ? buffers.denoise->result().address() : view.frame.irradiance;
+    view.frame.ambientL = buffers.ambient.address();
+    view.frame.lighting = buffers.denoiser ? buffers.denoiser->lighting().address() : view.frame.irradiance;
     view.frame.radiance = buffers.radiance.address();
     view.frame.means = buffers.means.address();
     view.frame.picture = buffers.picture.address();
@@ -225,10 +226,13 @@ const TracedView& TraceRenderer::prepareView(const FrameCommands& frame, const S
 
 void TraceRenderer::prepareHistory(const FrameCommands& frame, const SceneView& scene, ViewBuffers& buffers,
                                    RtFrame& out) {
-    const bool denoised = m_settings.rt_denoiser && m_settings.rt_illumination && !m_settings.rt_accumulate;
+    const bool denoised = m_settings.rt_illumination && !m_settings.rt_accumulate;
     const bool antialiased = m_settings.rt_taa && !m_settings.rt_accumulate;
-    buffers.turnHistory(context().device(), denoised, antialiased);
-    if (!denoised && !antialiased) return;
+    const auto kind = denoised ? static_cast<DenoiserKind>(m_settings.rt_denoiser) : DenoiserKind::None;
+    if (kind != DenoiserKind::None && !m_denoisePipelines)
+        m_denoisePipelines = std::make_unique<DenoisePipelines>(context().device());
+    buffers.turnHistory(context().device(), m_denoisePipelines.get(), kind, antialiased);
+    if (!buffers.guides) return;
     ViewInstant now{.camera = cameraOf(out),
                     .timeMs = scene.timeMs,
                     .sampleFrame = out.frame,
@@ -240,33 +244,24 @@ void TraceRenderer::prepareHistory(const FrameCommands& frame, const SceneView& 
         now.indexAddress.push_back(instance.indices);
     ViewMotion& motion = buffers.motion;
     motion.advance(std::move(now));
-    const VkDeviceAddress corners = m_scene->keepForFrame(std::span(motion.current().corners));
-    const VkDeviceAddress previousCorners = m_scene->keepForFrame(std::span(motion.previous().corners));
+    GrowingBuffer& stream = m_scene->stream();
+    const VkDeviceAddress previousCorners = stream.append(std::span<const vec3>(motion.previous().corners)).address;
     out.flags |= kFrameHistory;
-    out.motionToPrevious = m_scene->keepForFrame(std::span<const RtMotion>(motion.toPrevious(previousCorners)));
+    out.motionToPrevious = stream.append(std::span<const RtMotion>(motion.toPrevious(previousCorners))).address;
     out.guides = buffers.guides->guides.address();
     out.pasts = buffers.guides->pasts.address();
     out.previousEye = motion.previous().camera.eye;
-    if (denoised) {
-        if (!m_denoisePipelines) m_denoisePipelines = std::make_unique<DenoisePipelines>(context().device());
-        const VkDeviceAddress toCurrent = m_scene->keepForFrame(std::span<const RtMotion>(motion.toCurrent(corners)));
-        const RtDenoise table = describeDenoise(buffers, toCurrent);
-        buffers.denoise->table = m_scene->keepForFrame(std::span<const RtDenoise>(&table, 1));
-    }
+    if (buffers.denoiser) buffers.denoiser->prepare(buffers, stream);
     if (antialiased) {
         if (!m_taaPipeline)
             m_taaPipeline =
                 ComputePipeline(context().device(), {"taa", {shaders::rt_taa_comp, {}}, {{}, sizeof(RtTaaPush)}});
         const RtTaa table = describeTaa(buffers);
-        buffers.taa->table = m_scene->keepForFrame(std::span<const RtTaa>(&table, 1));
+        buffers.taa->table = stream.append(table).address;
         // The mean over frames wants one jitter for the whole picture, evenly spread over the frames.
         out.flags |= kFrameSharedJitter;
         out.jitter = spreadOverSquare(m_pictureNumber);
     }
-}
-
-DenoiseWork TraceRenderer::describeDenoiseWork(const ViewBuffers& buffers) const {
-    return {*m_denoisePipelines, buffers.denoise->table, buffers.area.extent, buffers.motion.isContinuous()};
 }
 
 ViewBuffers& TraceRenderer::buffersOf(const VkRect2D& area) {

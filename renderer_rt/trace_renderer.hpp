@@ -32,7 +32,6 @@ class TraceRenderer final : public GpuRenderer {
     const TracedView& prepareView(const FrameCommands& frame, const SceneView& scene, ViewBuffers& buffers);
     /// Turns the view's histories and makes the tables of the denoiser and of temporal anti-aliasing, if they are on.
     void prepareHistory(const FrameCommands& frame, const SceneView& scene, ViewBuffers& buffers, RtFrame& out);
-    DenoiseWork describeDenoiseWork(const ViewBuffers& buffers) const;
     void describeView(const SceneView& scene, VkExtent2D extent, RtFrame& out) const;
     void describeSettings(RtFrame& out) const;
     /// Number of this sample in the mean of an unchanged view; 0 starts a new mean.

@@ -42,11 +42,8 @@ class TracedScene {
     const ViewTables& tables() const { return m_tables; }
     /// Writes `view.frame` where the shaders find it.
     void finish(const TracedView& view);
-    /// Keeps a table where shaders find it, for this frame.
-    template <typename T>
-    VkDeviceAddress keepForFrame(std::span<const T> items) {
-        return m_stream.append(items).address;
-    }
+    /// What the shaders read in this frame alone, by address.
+    GrowingBuffer& stream() { return m_stream; }
     /// Bottom levels, then the top level, with the barriers between and after them.
     void recordBuilds(VkCommandBuffer commands, const TracedView& view);
 

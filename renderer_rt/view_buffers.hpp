@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "gpu/buffer.hpp"
+#include "renderer_rt/denoiser.hpp"
 #include "renderer_rt/view_motion.hpp"
 #include "shaders/shared/rt_denoise.h"
 #include "shaders/shared/rt_taa.h"
@@ -24,19 +25,6 @@ struct GuideBuffers {
     GuideBuffers(Device& device, VkExtent2D extent);
 };
 
-struct DenoiseBuffers {
-    Buffer previousPixels, previousIrradiance;
-    Buffer light, previousLight;
-    Buffer moments, previousMoments;
-    Buffer winners;
-    Buffer gradients[2];
-    Buffer filtered[2];
-    VkDeviceAddress table = 0; ///< RtDenoise of the frame
-    DenoiseBuffers(Device& device, VkExtent2D extent);
-    /// Where the filtered light of the frame lies.
-    Buffer& result() { return filtered[kFilterLevels & 1]; }
-};
-
 struct TaaBuffers {
     Buffer history, previousHistory;
     VkDeviceAddress table = 0; ///< RtTaa of the frame
@@ -45,21 +33,21 @@ struct TaaBuffers {
 
 struct ViewBuffers {
     VkRect2D area{}; ///< on the target
-    Buffer pixels, irradiance, radiance, means, picture;
+    Buffer pixels, irradiance, ambient, radiance, means, picture;
     ViewMotion motion;
-    std::unique_ptr<GuideBuffers> guides;    ///< null: there is no history of any kind
-    std::unique_ptr<DenoiseBuffers> denoise; ///< null: no denoiser
-    std::unique_ptr<TaaBuffers> taa;         ///< null: no temporal anti-aliasing
-    uint32_t lastPicture = 0;                ///< number of the last drawn frame that used it
+    std::unique_ptr<GuideBuffers> guides; ///< null: there is no history of any kind
+    std::unique_ptr<Denoiser> denoiser;   ///< null: none
+    std::unique_ptr<TaaBuffers> taa;      ///< null: no temporal anti-aliasing
+    uint32_t lastPicture = 0;             ///< number of the last drawn frame that used it
     ViewBuffers(Device& device, const VkRect2D& viewArea);
     /// Makes or drops what is kept from frame to frame; what the last frame left becomes its history.
-    void turnHistory(Device& device, bool denoised, bool antialiased);
+    /// `pipelines` may be null if nothing is denoised.
+    void turnHistory(Device& device, const DenoisePipelines* pipelines, DenoiserKind denoised, bool antialiased);
+    DenoiserKind denoiserKind() const { return denoiser ? denoiser->kind() : DenoiserKind::None; }
     /// What the output curve is put on.
     const Buffer& shown() const { return taa ? taa->history : picture; }
 };
 
-/// The denoiser's table for the frame. `motionToCurrent`: RtMotion[] of the previous frame's instances.
-RtDenoise describeDenoise(const ViewBuffers& buffers, VkDeviceAddress motionToCurrent);
 RtTaa describeTaa(const ViewBuffers& buffers);
 
 } // namespace q3rt

@@ -8,6 +8,7 @@ void addComposite(FrameGraph& graph, ViewResources& resources, const ViewWork& w
         [&](PassBuilder& pass) {
             pass.read(resources.pixels, access::kComputeRead);
             pass.read(resources.lighting, access::kComputeRead);
+            pass.read(resources.ambient, access::kComputeRead);
             resources.radiance = pass.write(resources.radiance, access::kComputeWrite);
             resources.means = pass.write(resources.means, access::kComputeWrite);
             resources.picture = pass.write(resources.picture, access::kComputeWrite);

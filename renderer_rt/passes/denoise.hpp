@@ -1,21 +1,19 @@
 #pragma once
-// The denoiser's passes, between primary and composite, on L alone (albedo divided out). docs/denoising.md says what
-// each does; a denoiser of another kind stands beside these two functions.
+// The passes of SVGF and A-SVGF, on direct light with albedo divided out. docs/denoising.md says what each does.
 
 #include "renderer_rt/denoise_pipelines.hpp"
 #include "renderer_rt/passes/passes.hpp"
-#include "renderer_rt/view_buffers.hpp"
 
 namespace q3rt {
 
-/// The graph's handles of the denoiser's buffers, in their newest versions.
+/// The graph's handles of a denoiser's buffers, in their newest versions.
 struct DenoiseResources {
-    BufferId previousPixels, previousIrradiance;
     BufferId light, previousLight;
     BufferId moments, previousMoments;
+    BufferId filtered[2];
+    BufferId previousPixels, previousIrradiance; ///< A-SVGF, and what follows
     BufferId winners;
     BufferId gradients[2];
-    BufferId filtered[2];
 };
 
 struct DenoiseWork {
@@ -23,20 +21,21 @@ struct DenoiseWork {
     VkDeviceAddress table = 0; ///< RtDenoise
     VkExtent2D extent{};       ///< pixels
     bool hasHistory = false;   ///< the frame continues the one before
+    bool hasGradient = false;
 };
 
-DenoiseResources importDenoise(FrameGraph& graph, DenoiseBuffers& buffers);
-
-/// Before "direct": samples of the last frame find their pixels in this one. "denoise clear", "denoise project",
-/// "denoise carry".
-void addDenoiseProjection(FrameGraph& graph, ViewResources& resources, DenoiseResources& denoise,
-                          const DenoiseWork& work);
-/// After "direct": from traced light to what the picture shows, resources.lighting. The following four in order.
-void addDenoise(FrameGraph& graph, ViewResources& resources, DenoiseResources& denoise, const DenoiseWork& work);
-
-/// "denoise gradient", "denoise gradient filter".
+/// "denoise clear", "denoise project": samples of the last frame find their pixels in this one.
+void addDenoiseProject(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
+                       const DenoiseWork& work);
+/// "denoise carry": these pixels show the samples' surface points.
+void addDenoiseCarry(FrameGraph& graph, ViewResources& resources, const DenoiseResources& denoise,
+                     const DenoiseWork& work);
+/// "denoise gradient": by how much their light has changed.
 void addDenoiseGradient(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
                         const DenoiseWork& work);
+/// "denoise gradient filter".
+void addDenoiseGradientFilter(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
+                              const DenoiseWork& work);
 /// "denoise temporal".
 void addDenoiseTemporal(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
                         const DenoiseWork& work);

@@ -34,12 +34,4 @@ void addDenoiseFilter(FrameGraph& graph, const ViewResources& resources, Denoise
             });
 }
 
-void addDenoise(FrameGraph& graph, ViewResources& resources, DenoiseResources& denoise, const DenoiseWork& work) {
-    if (work.hasHistory) addDenoiseGradient(graph, resources, denoise, work);
-    addDenoiseTemporal(graph, resources, denoise, work);
-    addDenoiseVariance(graph, resources, denoise, work);
-    addDenoiseFilter(graph, resources, denoise, work);
-    resources.lighting = denoise.filtered[kFilterLevels & 1];
-}
-
 } // namespace q3rt

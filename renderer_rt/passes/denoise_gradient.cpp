@@ -16,6 +16,10 @@ void addDenoiseGradient(FrameGraph& graph, const ViewResources& resources, Denoi
             work.pipelines.dispatch(pass.commands(), DenoiseStage::Gradient, {.denoise = work.table},
                                     strataOf(work.extent));
         });
+}
+
+void addDenoiseGradientFilter(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
+                              const DenoiseWork& work) {
     for (uint32_t level = 0; level < kGradientLevels; ++level)
         graph.addPass(
             "denoise gradient filter",

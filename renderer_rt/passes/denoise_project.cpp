@@ -2,25 +2,8 @@
 
 namespace q3rt {
 
-DenoiseResources importDenoise(FrameGraph& graph, DenoiseBuffers& buffers) {
-    DenoiseResources out;
-    out.previousPixels = graph.importBuffer("previous pixels", buffers.previousPixels);
-    out.previousIrradiance = graph.importBuffer("previous irradiance", buffers.previousIrradiance);
-    out.light = graph.importBuffer("light", buffers.light);
-    out.previousLight = graph.importBuffer("previous light", buffers.previousLight);
-    out.moments = graph.importBuffer("moments", buffers.moments);
-    out.previousMoments = graph.importBuffer("previous moments", buffers.previousMoments);
-    out.winners = graph.importBuffer("winners", buffers.winners);
-    for (size_t i = 0; i < 2; ++i) {
-        out.gradients[i] = graph.importBuffer("gradients", buffers.gradients[i]);
-        out.filtered[i] = graph.importBuffer("filtered", buffers.filtered[i]);
-    }
-    return out;
-}
-
-void addDenoiseProjection(FrameGraph& graph, ViewResources& resources, DenoiseResources& denoise,
-                          const DenoiseWork& work) {
-    if (!work.hasHistory) return;
+void addDenoiseProject(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
+                       const DenoiseWork& work) {
     graph.addPass(
         "denoise clear",
         [&](PassBuilder& pass) { denoise.winners = pass.write(denoise.winners, access::kTransferWrite); },
@@ -39,6 +22,10 @@ void addDenoiseProjection(FrameGraph& graph, ViewResources& resources, DenoiseRe
             work.pipelines.dispatch(pass.commands(), DenoiseStage::Project, {.denoise = work.table},
                                     strataOf(work.extent));
         });
+}
+
+void addDenoiseCarry(FrameGraph& graph, ViewResources& resources, const DenoiseResources& denoise,
+                     const DenoiseWork& work) {
     graph.addPass(
         "denoise carry",
         [&](PassBuilder& pass) {

@@ -14,8 +14,8 @@ void addDenoiseTemporal(FrameGraph& graph, const ViewResources& resources, Denoi
                 pass.read(resources.previousGuides, access::kComputeRead);
                 pass.read(denoise.previousLight, access::kComputeRead);
                 pass.read(denoise.previousMoments, access::kComputeRead);
-                pass.read(denoise.gradients[kGradientLevels & 1], access::kComputeRead);
             }
+            if (work.hasGradient) pass.read(denoise.gradients[kGradientLevels & 1], access::kComputeRead);
             denoise.light = pass.write(denoise.light, access::kComputeWrite);
             denoise.moments = pass.write(denoise.moments, access::kComputeWrite);
         },

@@ -9,6 +9,7 @@ void addDirect(FrameGraph& graph, ViewResources& resources, const ViewWork& work
             pass.read(resources.structures, work.pipelines.structureRead());
             pass.read(resources.pixels, work.pipelines.bufferRead());
             resources.irradiance = pass.write(resources.irradiance, work.pipelines.bufferWrite());
+            resources.ambient = pass.write(resources.ambient, work.pipelines.bufferWrite());
             resources.lighting = resources.irradiance;
         },
         [work](PassContext& pass) {

@@ -11,14 +11,17 @@ namespace q3rt {
 
 /// The graph's handles of one view, in their newest versions.
 struct ViewResources {
-    BufferId structures;                    ///< a token: orders builds and traces
-    BufferId pixels;                        ///< RtPixel[]
-    BufferId guides, previousGuides, pasts; ///< RtGuide[], RtPast[]: if there is a history
-    BufferId irradiance;                    ///< vec4[]
-    BufferId lighting;                      ///< vec4[]: irradiance, or what the denoiser made of it
-    BufferId radiance;                      ///< vec4[]: running mean, kept between frames
-    BufferId means;                         ///< RtMean[], kept between frames
-    BufferId picture;                       ///< vec4[]: exposed
+    BufferId structures;             ///< a token: orders builds and traces
+    BufferId pixels;                 ///< RtPixel[]
+    BufferId guides, previousGuides; ///< RtGuide[], if there is a history
+    BufferId pasts;                  ///< RtPast[], likewise
+    BufferId irradiance;             ///< vec4[]: direct light
+    BufferId ambient;                ///< vec4[]
+    BufferId lighting;               ///< vec4[]: irradiance, or what the denoiser made of it
+    BufferId gradients;              ///< vec2[], a stratum: change of light, if the denoiser knows it
+    BufferId radiance;               ///< vec4[]: running mean, kept between frames
+    BufferId means;                  ///< RtMean[], kept between frames
+    BufferId picture;                ///< vec4[]: exposed
 };
 
 /// What the passes of one view share while they record.
@@ -32,9 +35,8 @@ struct ViewWork {
 
 /// "acceleration": structures of what moves, then the top level.
 void addAcceleration(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
-/// For a view with a history.
-void importGuides(FrameGraph& graph, ViewResources& resources, GuideBuffers& buffers);
-/// "primary": camera rays to RtPixel, and to guides and pasts if these are imported.
+ViewResources importView(FrameGraph& graph, ViewBuffers& buffers);
+/// "primary": camera rays to RtPixel, and to guides and pasts if there is a history.
 void addPrimary(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
 /// "direct": shadow rays to irradiance.
 void addDirect(FrameGraph& graph, ViewResources& resources, const ViewWork& work);

@@ -2,12 +2,6 @@
 
 namespace q3rt {
 
-void importGuides(FrameGraph& graph, ViewResources& resources, GuideBuffers& buffers) {
-    resources.guides = graph.importBuffer("guides", buffers.guides);
-    resources.previousGuides = graph.importBuffer("previous guides", buffers.previousGuides);
-    resources.pasts = graph.importBuffer("pasts", buffers.pasts);
-}
-
 void addPrimary(FrameGraph& graph, ViewResources& resources, const ViewWork& work) {
     graph.addPass(
         "primary",

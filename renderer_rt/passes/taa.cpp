@@ -3,7 +3,7 @@
 namespace q3rt {
 
 void addTaa(FrameGraph& graph, ViewResources& resources, TaaBuffers& buffers, const ComputePipeline& pipeline,
-            BufferId gradients, VkExtent2D extent) {
+            VkExtent2D extent) {
     const BufferId history = graph.importBuffer("taa history", buffers.history);
     const BufferId previous = graph.importBuffer("taa previous history", buffers.previousHistory);
     const RtTaaPush push{buffers.table};
@@ -14,7 +14,7 @@ void addTaa(FrameGraph& graph, ViewResources& resources, TaaBuffers& buffers, co
             pass.read(resources.pasts, access::kComputeRead);
             pass.read(resources.picture, access::kComputeRead);
             pass.read(previous, access::kComputeRead);
-            if (gradients) pass.read(gradients, access::kComputeRead);
+            if (resources.gradients) pass.read(resources.gradients, access::kComputeRead);
             return pass.write(history, access::kComputeWrite);
         },
         [&pipeline, push, extent](PassContext& pass, BufferId) {

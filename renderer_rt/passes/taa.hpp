@@ -6,8 +6,8 @@
 
 namespace q3rt {
 
-/// resources.picture becomes the averaged picture. `gradients`: the denoiser's filtered ones, if it has any.
+/// resources.picture becomes the averaged picture.
 void addTaa(FrameGraph& graph, ViewResources& resources, TaaBuffers& buffers, const ComputePipeline& pipeline,
-            BufferId gradients, VkExtent2D extent);
+            VkExtent2D extent);
 
 } // namespace q3rt

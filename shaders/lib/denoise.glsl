@@ -88,9 +88,9 @@ float varianceOfMean(vec2 moments, float n) { return max(moments.y - moments.x *
 // Relative changes from this on say that nothing of the old light is left to use.
 const float kFullChange = 0.1f;
 
-// How much of the history is to be dropped: A-SVGF, equation 4, steeper. A mean that forgets a share a of itself in each
-// frame lags a light that changes by g a frame by g / a and keeps noise in proportion to a; the sum of both squares is
-// least where a^3 goes with g^2. A gradient of an unchanged point is exactly 0, so no steady light loses history by it.
+// How much of the history is to be dropped: A-SVGF, equation 4, steeper. A mean that forgets a share a of itself in
+// each frame lags a light that changes by g a frame by g / a and keeps noise in proportion to a; the sum of both
+// squares is least where a^3 goes with g^2. The gradient of an unchanged point is exactly 0: no steady light loses any.
 float historyLoss(vec2 gradient)
 {
     if (gradient.y <= 0.0f)

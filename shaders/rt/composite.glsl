@@ -25,7 +25,8 @@ void compositePixel(uvec2 pixelPosition)
 {
     uint index = pixelIndex(pixelPosition);
     RtPixel pixel = PixelTable(rtFrame.pixels).at[index];
-    RtMean mean = RtMean(pixel.albedo, pixel.albedo * ColorTable(rtFrame.lighting).at[index].rgb);
+    vec3 light = ColorTable(rtFrame.lighting).at[index].rgb + ColorTable(rtFrame.ambientL).at[index].rgb;
+    RtMean mean = RtMean(pixel.albedo, pixel.albedo * light);
     vec3 radiance = mean.lit + pixel.emission;
     if (rtFrame.sampleNumber > 0u) {
         RtMean before = MeanTable(rtFrame.means).at[index];

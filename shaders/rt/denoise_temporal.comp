@@ -95,8 +95,11 @@ void main()
     float luminance = luminanceOf(light);
     float share = 1.0;
     if (history.weight > 0.0) {
-        vec2 gradient = PairTable(denoise.gradients[kGradientLevels & 1u]).at[stratumIndex(pixel / kStratumPixels)];
-        share = blendFactor(min(history.light.w, kHistoryLimit - 1.0), historyLoss(gradient));
+        float loss = kFixedShare;
+        if ((denoise.flags & kDenoiseGradient) != 0u)
+            loss = historyLoss(
+                PairTable(denoise.gradients[kGradientLevels & 1u]).at[stratumIndex(pixel / kStratumPixels)]);
+        share = blendFactor(min(history.light.w, kHistoryLimit - 1.0), loss);
     }
     ColorTable(denoise.light).at[index] = vec4(mix(history.light.rgb, light, share), 1.0 / share);
     PairTable(denoise.moments).at[index] = mix(history.moments, vec2(luminance, luminance * luminance), share);

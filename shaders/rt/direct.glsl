@@ -1,4 +1,5 @@
-// Direct illumination of one pixel: L, the factor that replaces baked light (1.0 = irradiance 63.75 luxel units).
+// Direct illumination of one pixel: L, the factor that replaces baked light (1.0 = irradiance 63.75 luxel units); what
+// is sampled and what is not apart, for denoisers.
 // One light is chosen among all that the point may see, in proportion to what it would give without a shadow; its
 // shadow ray decides. The expected value is the sum over all lights, whatever the number of choices.
 #ifndef Q3RT_RT_DIRECT_GLSL
@@ -62,7 +63,7 @@ void directPixel(uvec2 pixelPosition)
 {
     uint index = pixelIndex(pixelPosition);
     RtPixel pixel = PixelTable(rtFrame.pixels).at[index];
-    vec3 light = vec3(1.0);
+    vec3 light = vec3(1.0), ambient = vec3(0.0);
     if (pixel.lit != 0u && (rtFrame.flags & kFrameIllumination) != 0u) {
         ShadingPoint point;
         point.position = pixel.position;
@@ -84,9 +85,11 @@ void directPixel(uvec2 pixelPosition)
             }
             irradiance /= float(rtFrame.lightsPerPixel);
         }
-        light = (irradiance + grid.irradiance * rtFrame.ambient) / kWhiteIrradiance;
+        light = irradiance / kWhiteIrradiance;
+        ambient = grid.irradiance * rtFrame.ambient / kWhiteIrradiance;
     }
     ColorTable(rtFrame.irradiance).at[index] = vec4(light, 1.0);
+    ColorTable(rtFrame.ambientL).at[index] = vec4(ambient, 1.0);
 }
 
 #endif

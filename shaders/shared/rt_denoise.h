@@ -13,12 +13,16 @@ SHARED_CONST kNoWinner = 0xffffffffu;
 SHARED_CONST kGradientLevels = 4u;
 SHARED_CONST kFilterLevels = 5u;
 
+// Share of a new frame in the mean at least, where nothing says what has changed (SVGF, section 4.1: 0.2; Schied,
+// Peters, Dachsbacher 2018, section 6, compare with 0.1).
+SHARED_FLOAT kFixedShare = 0.1f;
 // Frames that the mean of an unchanged pixel spans at most.
 SHARED_FLOAT kHistoryLimit = 64.0f;
 // From this many samples on a pixel's own moments give its variance, before that its neighbours'.
 SHARED_FLOAT kTemporalVarianceSamples = 4.0f;
 
-SHARED_CONST kDenoiseHistory = 0x1u; // the previous frame's buffers hold something
+SHARED_CONST kDenoiseHistory = 0x1u;  // the previous frame's buffers hold something
+SHARED_CONST kDenoiseGradient = 0x2u; // there are gradients
 
 struct RtDenoise {
     SHARED_ADDRESS pixels; // RtPixel[]

@@ -198,7 +198,8 @@ struct RtFrame {
     SHARED_ADDRESS pasts;            // RtPast[]
     SHARED_ADDRESS pixels;
     SHARED_ADDRESS irradiance; // vec4[]: traced L (1.0 = irradiance 63.75), one a pixel
-    SHARED_ADDRESS lighting;   // vec4[]: L that the picture shows: `irradiance`, or what a denoiser made of it
+    SHARED_ADDRESS ambientL;   // vec4[]: L of the light grid, without noise
+    SHARED_ADDRESS lighting;   // vec4[]: traced L that the picture shows: `irradiance`, or what a denoiser made of it
     SHARED_ADDRESS radiance;   // vec4[]: mean radiance of all samples so far, one a pixel
     SHARED_ADDRESS means;      // RtMean[]
     SHARED_ADDRESS picture;    // vec4[]: what is shown of the means, exposed

@@ -20,11 +20,16 @@ std::vector<T> readItems(Device& device, const Buffer& buffer) {
 
 } // namespace
 
-DenoiseRig::DenoiseRig(Device& device)
+DenoiseRig::DenoiseRig(Device& device, DenoiserKind kind)
     : m_device(device)
+    , m_kind(kind)
     , m_ring(device)
     , m_executor(device)
     , m_uploader(device)
+    , m_stream(device, {.size = 4096,
+                        .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                        .domain = MemoryDomain::Upload,
+                        .name = "rig tables"})
     , m_pipelines(device)
     , m_buffers(device, {{0, 0}, kRigExtent}) {}
 
@@ -82,19 +87,9 @@ void DenoiseRig::run(const std::function<void(FrameGraph& graph)>& addPasses) {
     m_device.waitIdle();
 }
 
-template <typename T>
-Buffer DenoiseRig::makeTable(const std::vector<T>& items) {
-    Buffer buffer(m_device, {.size = items.size() * sizeof(T),
-                             .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                             .domain = MemoryDomain::Upload,
-                             .name = "rig table"});
-    std::memcpy(buffer.mapped(), items.data(), items.size() * sizeof(T));
-    return buffer;
-}
-
 RigFrame DenoiseRig::draw(const vec3& eye, const LightFunction& light) {
     ++m_number;
-    m_buffers.turnHistory(m_device, true, false);
+    m_buffers.turnHistory(m_device, &m_pipelines, m_kind, false);
     const RtFrame camera = describeCamera(eye);
     EntityPlace world;
     world.moves = false;
@@ -107,17 +102,13 @@ RigFrame DenoiseRig::draw(const vec3& eye, const LightFunction& light) {
                               .instances = {InstancePlace{}},
                               .corners = {},
                               .indexAddress = {0}});
-    const Buffer toCurrent = makeTable(m_buffers.motion.toCurrent(0));
-    const Buffer table = makeTable(std::vector{describeDenoise(m_buffers, toCurrent.address())});
-    const DenoiseWork work{m_pipelines, table.address(), kRigExtent, m_buffers.motion.isContinuous()};
+    m_stream.beginFrame(0);
+    m_buffers.denoiser->prepare(m_buffers, m_stream);
 
     uploadSurfaces(findSurfaces(camera));
     run([&](FrameGraph& graph) {
-        ViewResources resources;
-        resources.pixels = graph.importBuffer("pixels", m_buffers.pixels);
-        importGuides(graph, resources, *m_buffers.guides);
-        DenoiseResources denoise = importDenoise(graph, *m_buffers.denoise);
-        addDenoiseProjection(graph, resources, denoise, work);
+        ViewResources resources = importView(graph, m_buffers);
+        m_buffers.denoiser->addBeforeDirect(graph, resources);
     });
 
     RigFrame out;
@@ -131,14 +122,10 @@ RigFrame DenoiseRig::draw(const vec3& eye, const LightFunction& light) {
     m_uploader.upload(m_buffers.irradiance, std::span<const vec4>(irradiance));
     m_uploader.flush();
     run([&](FrameGraph& graph) {
-        ViewResources resources;
-        resources.pixels = graph.importBuffer("pixels", m_buffers.pixels);
-        resources.irradiance = graph.importBuffer("irradiance", m_buffers.irradiance);
-        importGuides(graph, resources, *m_buffers.guides);
-        DenoiseResources denoise = importDenoise(graph, *m_buffers.denoise);
-        addDenoise(graph, resources, denoise, work);
+        ViewResources resources = importView(graph, m_buffers);
+        m_buffers.denoiser->addAfterDirect(graph, resources);
     });
-    for (const vec4& shown : readItems<vec4>(m_device, m_buffers.denoise->result()))
+    for (const vec4& shown : readItems<vec4>(m_device, m_buffers.denoiser->lighting()))
         out.shown.emplace_back(shown);
     return out;
 }

@@ -7,6 +7,7 @@
 #include "frame/frame_executor.hpp"
 #include "gpu/device.hpp"
 #include "gpu/frame_ring.hpp"
+#include "gpu/growing_buffer.hpp"
 #include "gpu/uploader.hpp"
 #include "renderer_rt/passes/denoise.hpp"
 
@@ -27,7 +28,7 @@ struct RigFrame {
 /// A corner of a room: floor z = 0, wall x = 200, and the empty sky above the wall's edge at z = 150.
 class DenoiseRig {
   public:
-    explicit DenoiseRig(Device& device);
+    explicit DenoiseRig(Device& device, DenoiserKind kind = DenoiserKind::Asvgf);
     /// Draws one frame from `eye`, looking along x and down a little.
     RigFrame draw(const vec3& eye, const LightFunction& light);
     /// Leaves out one frame's number: the next one starts anew.
@@ -38,13 +39,13 @@ class DenoiseRig {
     std::vector<RtPixel> findSurfaces(const RtFrame& camera) const;
     void uploadSurfaces(const std::vector<RtPixel>& pixels);
     void run(const std::function<void(FrameGraph& graph)>& addPasses);
-    template <typename T>
-    Buffer makeTable(const std::vector<T>& items);
 
     Device& m_device;
+    DenoiserKind m_kind;
     FrameRing m_ring;
     FrameExecutor m_executor;
     Uploader m_uploader;
+    GrowingBuffer m_stream;
     DenoisePipelines m_pipelines;
     ViewBuffers m_buffers;
     uint32_t m_number = 0;

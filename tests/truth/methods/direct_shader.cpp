@@ -72,12 +72,13 @@ const float kLeastSkyShare = kLeastSkyChance;
 
 vec3 runDirectStage(DirectInputs& inputs, const RtPixel& pixel) {
     RtPixel copy = pixel;
-    Numbers4 result(vec3(0.0f), 0.0f);
+    Numbers4 result(vec3(0.0f), 0.0f), ambient(vec3(0.0f), 0.0f);
     inputs.frame.pixels = reinterpret_cast<uint64_t>(&copy);
     inputs.frame.irradiance = reinterpret_cast<uint64_t>(&result);
+    inputs.frame.ambientL = reinterpret_cast<uint64_t>(&ambient);
     inputsOfRun = &inputs;
     directPixel(uvec2(0));
-    return {result.x, result.y, result.z};
+    return {result.x + ambient.x, result.y + ambient.y, result.z + ambient.z};
 }
 
 RtPixel makeLitPixel(const vec3 corner[3], const vec2& barycentric, const vec3& shadingNormal,

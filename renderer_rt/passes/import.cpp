@@ -1,0 +1,23 @@
+#include "renderer_rt/passes/passes.hpp"
+
+namespace q3rt {
+
+ViewResources importView(FrameGraph& graph, ViewBuffers& buffers) {
+    ViewResources resources;
+    resources.structures = graph.importBuffer("structures", ResourceState{});
+    resources.pixels = graph.importBuffer("pixels", buffers.pixels);
+    resources.irradiance = graph.importBuffer("irradiance", buffers.irradiance);
+    resources.ambient = graph.importBuffer("ambient", buffers.ambient);
+    resources.radiance = graph.importBuffer("radiance", buffers.radiance);
+    resources.means = graph.importBuffer("means", buffers.means);
+    resources.picture = graph.importBuffer("picture", buffers.picture);
+    if (buffers.guides) {
+        resources.guides = graph.importBuffer("guides", buffers.guides->guides);
+        resources.previousGuides = graph.importBuffer("previous guides", buffers.guides->previousGuides);
+        resources.pasts = graph.importBuffer("pasts", buffers.guides->pasts);
+    }
+    if (buffers.denoiser) buffers.denoiser->import(graph);
+    return resources;
+}
+
+} // namespace q3rt
