@@ -99,6 +99,10 @@ void TraceRenderer::onGpuReady() {
     if (!m_scene->hasWorld()) return;
     if (!m_calibrationKey.empty()) calibrate();
     warmPipelines();
+    // Whatever was drawn while the map was loaded, the first picture of the world is the same.
+    m_pictureNumber = 0;
+    m_buffers.clear();
+    m_lastBuffers = nullptr;
 }
 
 void TraceRenderer::onGpuContentDropped() {

@@ -71,7 +71,7 @@ class TraceRenderer final : public GpuRenderer {
     bool m_commandAdded = false;
     std::string m_calibrationKey; ///< not empty: the back end is to be measured when a map is there
     std::string m_backendReason;
-    uint32_t m_pictureNumber = 0; ///< of drawn frames
+    uint32_t m_pictureNumber = 0; ///< of drawn frames since registration ended
     uint32_t m_frameNumber = 0;   ///< of traced views since the map was loaded
     uint32_t m_sampleNumber = 0;
     std::vector<uint32_t> m_lastViewKey; ///< of the view that the mean belongs to

@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 
 struct RecordArguments {
     EngineRun run;
-    std::string demo, out, renderer = "null";
+    std::string demo, out, pictures, renderer = "null";
+    int every = 1;
     bool json = false;
 };
 
@@ -29,11 +30,17 @@ void runRecord(RecordArguments& a) {
     run.headless = run.timed = run.watched = true;
     OutputFile output(fs::absolute(a.out));
     run.recordTo = output.temporary();
-    const auto frames = static_cast<size_t>(run.recordFirst + run.recordCount);
+    const OutputFolder pictures(a.pictures);
+    run.pictureEvery = pictures.isWanted() ? a.every : 0;
+    const int frames = run.recordFirst + run.recordCount;
     {
-        Progress progress("frame", run.recordCount > 0 ? frames : run.demo.snapshots);
+        Progress progress("frame", run.recordCount > 0 ? static_cast<size_t>(frames) : run.demo.snapshots);
         runEngine(run, [&](const WatchedFrame& frame) {
-            if (frame.frame >= 0) progress.advance(static_cast<size_t>(frame.frame) + 1);
+            if (frame.frame < 0) return;
+            const bool isKept = frame.frame >= run.recordFirst && (run.recordCount == 0 || frame.frame < frames);
+            if (isKept && frame.picture.width > 0)
+                writePng(pictures.path() / formatText("%08d.png", frame.frame), frame.picture);
+            progress.advance(static_cast<size_t>(frame.frame) + 1);
         });
     }
     const Recording recording(run.recordTo);
@@ -72,6 +79,11 @@ void addRecordCommand(CLI::App& app, int& exitCode) {
     command->add_option("--count", a->run.recordCount, "Number of frames to keep (default: to the end)")
         ->check(CLI::PositiveNumber);
     addRendererOption(*command, a->renderer);
+    command->add_option("--pictures", a->pictures,
+                        "Folder for the recorded renderer's own pictures, named by frame number as replay names them");
+    command->add_option("--every", a->every, "With --pictures: keep every N-th frame's, counted from the demo's start")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
     addSizeOption(*command, a->run.size);
     addSetOption(*command, a->run.cvars);
     command->add_flag("--json", a->json, "Print the summary as one JSON object");

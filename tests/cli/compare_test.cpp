@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/image.hpp"
-#include "run_program.hpp"
+#include "support/run_program.hpp"
 
 namespace q3rt::test {
 

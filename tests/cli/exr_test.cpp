@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
-#include "run_program.hpp"
+#include "support/run_program.hpp"
 
 namespace q3rt::test {
 namespace {

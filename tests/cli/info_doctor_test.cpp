@@ -5,8 +5,8 @@
 
 #include "baseq3-test/test_maps.hpp"
 #include "formats/pk3.hpp"
-#include "run_program.hpp"
 #include "support/game_data.hpp"
+#include "support/run_program.hpp"
 
 namespace q3rt::test {
 

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "run_program.hpp"
 #include "support/game_data.hpp"
+#include "support/run_program.hpp"
 
 namespace q3rt::test {
 namespace {

@@ -3,8 +3,8 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
-#include "run_program.hpp"
 #include "support/game_data.hpp"
+#include "support/run_program.hpp"
 
 namespace q3rt::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
-#include "cli/run_program.hpp"
+#include "support/run_program.hpp"
 #include "host/file_bytes.hpp"
 #include "sample_results.hpp"
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/run_program.hpp"
+#include "support/run_program.hpp"
 #include "host/file_bytes.hpp"
 #include "host/still_scene.hpp"
 #include "trace/recording_writer.hpp"

@@ -1,5 +1,6 @@
 // What the engine asks of the recorded module: passed on, and noted with its result. See recorder.hpp for the order.
 
+#include <cstdlib>
 #include <cstring>
 #include <dlfcn.h>
 
@@ -42,6 +43,7 @@ void shutDown(qboolean destroyWindow) {
 }
 
 void beginRegistration(glconfig_t* config) {
+    std::srand(1); // renderers fill noise tables from rand(): the host that replays does the same
     recording.inner.BeginRegistration(config);
     watchRegistered(*config);
     note([=](Recorder& recorder) {

@@ -1,4 +1,4 @@
-#include "run_program.hpp"
+#include "support/run_program.hpp"
 
 #include <algorithm>
 #include <csignal>
@@ -112,6 +112,12 @@ fs::path makeScratchFolder(const std::string& name) {
     fs::remove_all(folder);
     fs::create_directories(folder);
     return folder;
+}
+
+std::vector<std::byte> readFile(const fs::path& path) {
+    const std::string text = readText(path);
+    const auto* first = reinterpret_cast<const std::byte*>(text.data());
+    return {first, first + text.size()};
 }
 
 void writeFile(const fs::path& path, const std::vector<std::byte>& bytes) {

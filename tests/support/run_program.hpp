@@ -26,6 +26,7 @@ ProgramResult interruptQ3rt(const std::vector<std::string>& arguments, const std
 /// A fresh empty folder of this process, removed at exit.
 std::filesystem::path makeScratchFolder(const std::string& name);
 
+std::vector<std::byte> readFile(const std::filesystem::path& path); ///< empty if there is none
 void writeFile(const std::filesystem::path& path, const std::vector<std::byte>& bytes);
 
 } // namespace q3rt::test
