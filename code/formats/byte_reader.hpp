@@ -25,7 +25,8 @@ class ByteReader {
         , m_what(what) {}
 
     std::span<const std::byte> take(size_t length) {
-        if (length > m_bytes.size()) throw ContentError(std::string(m_what) + ": ends too early; the file is damaged");
+        if (length > m_bytes.size())
+            throw ContentError(std::string(m_what) + ": ends too early; the file is damaged, get it again");
         const auto taken = m_bytes.first(length);
         m_bytes = m_bytes.subspan(length);
         return taken;

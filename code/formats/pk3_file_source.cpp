@@ -83,7 +83,7 @@ void Pk3FileSource::addGameFolder(const fs::path& folder) {
                 container.names.push_back(entry.name);
             addContainer(std::move(container));
         } catch (const ContentError& damage) {
-            logLineOnce(LogLevel::Warning, "%s; going on without it", damage.what());
+            m_damages.emplace_back(damage.what());
         }
     }
     addContainer({folder, std::nullopt, listLooseFiles(folder), {}});
@@ -98,13 +98,17 @@ void Pk3FileSource::addContainer(Container container) {
 }
 
 std::optional<std::vector<std::byte>> Pk3FileSource::readFrom(const Container& container, size_t index) const {
-    if (!container.archive) return readLooseFile(container.path / container.names[index]);
-    try {
-        return container.archive->read(index);
-    } catch (const ContentError& damage) {
-        logLineOnce(LogLevel::Warning, "%s; going on without it", damage.what());
-        return std::nullopt;
+    return container.archive ? container.archive->read(index) : readLooseFile(container.path / container.names[index]);
+}
+
+std::optional<std::vector<std::byte>> Pk3FileSource::readIntact(std::string_view name) {
+    const std::string key = normalizeName(name);
+    for (const Container& container : m_containers) {
+        const auto found = container.indexOfName.find(key);
+        if (found == container.indexOfName.end()) continue;
+        if (auto bytes = readFrom(container, found->second)) return bytes;
     }
+    return std::nullopt;
 }
 
 std::optional<std::vector<std::byte>> Pk3FileSource::read(std::string_view name) {
@@ -112,7 +116,11 @@ std::optional<std::vector<std::byte>> Pk3FileSource::read(std::string_view name)
     for (const Container& container : m_containers) {
         const auto found = container.indexOfName.find(key);
         if (found == container.indexOfName.end()) continue;
-        if (auto bytes = readFrom(container, found->second)) return bytes;
+        try {
+            if (auto bytes = readFrom(container, found->second)) return bytes;
+        } catch (const ContentError& damage) {
+            logLineOnce(LogLevel::Warning, "%s; going on without it", damage.what());
+        }
     }
     return std::nullopt;
 }

@@ -26,15 +26,19 @@ class Pk3FileSource : public FileSource {
     };
 
     /// `baseFolders` such as /usr/share/games/openarena and `gameFolders` such as baseoa, lowest priority first.
-    /// Folders that don't exist are passed over; a damaged archive is reported in one warning and passed over.
+    /// Folders that don't exist are passed over, and so are damaged archives: damages() names them.
     Pk3FileSource(const std::vector<std::filesystem::path>& baseFolders, const std::vector<std::string>& gameFolders);
 
     std::optional<std::vector<std::byte>> read(std::string_view name) override;
+    /// The same, but throws ContentError where read() would warn of a damaged copy and go on to the next one.
+    std::optional<std::vector<std::byte>> readIntact(std::string_view name);
     /// Also names in folders up to two below `directory`, as the engine lists archives.
     std::vector<std::string> list(std::string_view directory, std::string_view extension) override;
 
     /// The copy of `name` that read() returns, or nullopt. Reads a loose file for its checksum.
     std::optional<Origin> findOrigin(std::string_view name);
+    /// What is wrong with each archive that was passed over, one line each.
+    const std::vector<std::string>& damages() const { return m_damages; }
     /// All archives in use, highest priority first.
     std::vector<const Pk3*> archives() const;
 
@@ -52,6 +56,7 @@ class Pk3FileSource : public FileSource {
     std::optional<std::vector<std::byte>> readFrom(const Container& container, size_t index) const;
 
     std::vector<Container> m_containers; ///< highest priority first
+    std::vector<std::string> m_damages;
 };
 
 } // namespace q3rt

@@ -96,6 +96,7 @@ void addCompareCommand(CLI::App& app, int& exitCode) {
     command->add_option("--ppd", arguments->pixelsPerDegree, "Pixels per degree of view that FLIP assumes")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
+    command->add_flag("--json")->description("The output is JSON in any case");
     command->callback([arguments, &exitCode] {
         runCompare(*arguments);
         exitCode = 0;

@@ -8,6 +8,7 @@
 
 #include "host/commands.hpp"
 #include "host/doctor.hpp"
+#include "host/session.hpp"
 
 namespace q3rt {
 
@@ -57,14 +58,15 @@ void addDoctorCommand(CLI::App& app, int& exitCode) {
                   "command that gets what is missing");
     const auto arguments = std::make_shared<DoctorArguments>();
     DoctorOptions& options = arguments->options;
-    command->add_option("--basepath", options.game.basePath, "Folder that holds the game folder");
-    command->add_option("--game", options.game.game, "Game folder (default baseoa)");
-    command->add_option("--demo", options.demo, "A demo to look for")->capture_default_str();
+    addGameOptions(*command, options.game);
+    CLI::Option* demo = command->add_option("--demo", options.demo, "A demo to look for")->capture_default_str();
     command->add_option("--map", options.map, "A map to load as a test");
+    command->add_option("--recording", options.recording, "A recording (.q3t) to read whole");
     command->add_option("--out", options.outputFolder, "A folder to try to write into");
     command->add_flag("--deep", options.deep, "Read every file of every archive and check its sum");
     command->add_flag("--json", arguments->json, "One JSON object instead of text");
-    command->callback([arguments, &exitCode] {
+    command->callback([arguments, demo, &exitCode] {
+        arguments->options.demoNeeded = demo->count() > 0;
         const std::vector<Check> checks = examineMachine(arguments->options);
         arguments->json ? printJson(checks) : printText(checks);
         exitCode = isPlayable(checks) ? 0 : 1;

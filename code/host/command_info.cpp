@@ -7,12 +7,10 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "base/error.hpp"
-#include "formats/pk3_file_source.hpp"
 #include "host/census.hpp"
 #include "host/commands.hpp"
-#include "host/installation.hpp"
 #include "host/luxel_table.hpp"
+#include "host/session.hpp"
 
 namespace q3rt {
 
@@ -77,6 +75,7 @@ void printText(const MapCensus& c) {
 }
 
 void printMap(Pk3FileSource& files, const std::string& map, const InfoArguments& arguments) {
+    readMap(files, map); // says what is wrong with it
     TextureLibrary textures(files, TextureSettings{});
     MaterialLibrary materials(files, textures, MaterialSettings{});
     const auto world = loadWorld(files, "maps/" + map + ".bsp", materials, WorldSettings{});
@@ -92,19 +91,18 @@ void printMap(Pk3FileSource& files, const std::string& map, const InfoArguments&
 }
 
 void runInfo(const InfoArguments& arguments) {
-    const Installation installation = findInstallation(arguments.game);
-    if (installation.archives.empty())
-        throw ContentError(formatText("%s has no pk3 archives: install openarena-data, or name the folders with "
-                                      "--basepath and --game",
-                                      (installation.dataBase / installation.game).c_str()));
-    Pk3FileSource files({installation.dataBase}, {installation.game});
+    const auto files = openGame(arguments.game);
     if (arguments.luxels && !arguments.json) printLuxelHeader();
     if (!arguments.all) {
-        printMap(files, arguments.map, arguments);
+        printMap(*files, arguments.map, arguments);
         return;
     }
-    for (const std::string& file : files.list("maps", ".bsp"))
-        printMap(files, file.substr(0, file.size() - 4), arguments);
+    const std::vector<std::string> maps = files->list("maps", ".bsp");
+    Progress progress("map", maps.size());
+    for (size_t i = 0; i < maps.size(); ++i) {
+        printMap(*files, maps[i].substr(0, maps[i].size() - 4), arguments);
+        progress.advance(i + 1);
+    }
 }
 
 } // namespace
@@ -121,8 +119,7 @@ void addInfoCommand(CLI::App& app, int& exitCode) {
                       "Compare the light of the lights found with the baked lightmap instead (docs/lights.md)");
     command->add_option("--points", arguments->luxelCount, "Luxels compared a map (default 3000)")
         ->check(CLI::Range(size_t{10}, size_t{10'000'000}));
-    command->add_option("--basepath", arguments->game.basePath, "Folder that holds the game folder");
-    command->add_option("--game", arguments->game.game, "Game folder (default baseoa)");
+    addGameOptions(*command, arguments->game);
     command->add_flag("--json", arguments->json, "One JSON object instead of text");
     command->callback([arguments, &exitCode] {
         runInfo(*arguments);

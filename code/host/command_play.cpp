@@ -89,9 +89,7 @@ void runPlay(PlayArguments& a) {
     run.module = findModule(a.renderer);
     const auto files = openGame(run.game);
     if (!a.demo.empty()) run.demo = findDemo(*files, a.demo);
-    if (!run.map.empty() && !files->read("maps/" + run.map + ".bsp"))
-        throw ContentError("maps/" + run.map +
-                           ".bsp is not in the game's archives; 'q3rt doctor' shows where it looks");
+    if (!run.map.empty()) readMap(*files, run.map);
     run.headless = run.headless || !hasDisplay();
     if (run.headless && a.demo.empty() && run.frameLimit == 0)
         throw UsageError("a game without a display needs an end: give --demo, or --map with --frames");

@@ -9,9 +9,9 @@
 #include "base/error.hpp"
 #include "host/commands.hpp"
 #include "host/headless/replayer.hpp"
+#include "host/map_stage.hpp"
 #include "host/output_file.hpp"
 #include "host/session.hpp"
-#include "host/still_scene.hpp"
 
 namespace q3rt {
 namespace {
@@ -23,22 +23,6 @@ struct SubsetArguments {
     GameChoice game;
     bool json = false;
 };
-
-/// Loads the map and all that its entities show, without drawing.
-void loadMap(HeadlessEngine& engine, FileSource& files, const std::string& map) {
-    const std::string mapFile = "maps/" + map + ".bsp";
-    const auto bytes = files.read(mapFile);
-    if (!bytes) throw ContentError(mapFile + " is not in the game's archives; choose another --map");
-    const Bsp bsp = parseBsp(*bytes, mapFile);
-    const std::vector<StillEntity> scene = buildStillScene(bsp, parseEntities(bsp.entities));
-    engine.beginRegistration();
-    engine.enter([&](const refexport_t& module) {
-        module.LoadWorld(mapFile.c_str());
-        for (const StillEntity& still : scene)
-            if (!still.model.empty()) module.RegisterModel(still.model.c_str());
-        module.EndRegistration();
-    });
-}
 
 void loadTrace(HeadlessEngine& engine, Recording& recording) {
     Replayer replayer(recording, engine, {});
@@ -53,11 +37,14 @@ void runSubset(const SubsetArguments& a) {
     checkWritable(a.out);
     std::unique_ptr<Recording> recording;
     std::unique_ptr<FileSource> files;
+    std::optional<MapStage> stage;
     if (a.map.empty()) {
         recording = std::make_unique<Recording>(fs::path(a.trace));
         files = std::make_unique<RecordedFiles>(*recording, a.game);
     } else {
-        files = openGame(a.game);
+        auto game = openGame(a.game);
+        stage.emplace(*game, a.map);
+        files = std::move(game);
     }
     HeadlessEngine engine(*files);
     engine.showsMessages = false;
@@ -65,7 +52,7 @@ void runSubset(const SubsetArguments& a) {
     if (recording)
         loadTrace(engine, *recording);
     else
-        loadMap(engine, *files, a.map);
+        stage->load(engine);
     std::vector<std::pair<std::string, std::vector<std::byte>>> entries;
     for (const std::string& name : engine.filesRead())
         if (auto bytes = files->read(name)) entries.emplace_back(name, std::move(*bytes));

@@ -24,7 +24,7 @@ size_t countSnapshots(const std::vector<std::byte>& demo) {
 DemoFile findDemo(Pk3FileSource& files, const std::string& name) {
     const std::string stem = name.substr(0, name.rfind(".dm_"));
     for (const int protocol : {71, 70})
-        if (const auto bytes = files.read("demos/" + stem + ".dm_" + std::to_string(protocol)))
+        if (const auto bytes = files.readIntact("demos/" + stem + ".dm_" + std::to_string(protocol)))
             return {stem, protocol, countSnapshots(*bytes)};
     std::string known;
     for (const char* extension : {".dm_71", ".dm_70"})

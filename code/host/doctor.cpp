@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <memory>
+#include <dlfcn.h>
 #include <unistd.h>
 
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/measured_choices.hpp"
-#include "formats/pk3_file_source.hpp"
 #include "gpu/capabilities.hpp"
 #include "gpu/device.hpp"
 #include "gpu/software_driver.hpp"
+#include "host/engine_process.hpp"
 #include "host/output_file.hpp"
 #include "scene/world.hpp"
 
@@ -42,13 +42,15 @@ void checkArchives(const Installation& found, bool deep, std::vector<Check>& che
                           "--basepath and --game"});
         return;
     }
-    size_t files = 0, damaged = 0;
+    size_t files = 0, damaged = 0, done = 0;
+    Progress progress("archive", deep ? found.archives.size() : 0);
     for (const fs::path& path : found.archives) {
         try {
             const Pk3 archive(path);
             files += archive.entries().size();
             for (size_t i = 0; deep && i < archive.entries().size(); ++i)
                 archive.read(i);
+            if (deep) progress.advance(++done);
         } catch (const ContentError& error) {
             ++damaged;
             checks.push_back({"game data", Finding::Problem, error.what(),
@@ -63,36 +65,56 @@ void checkArchives(const Installation& found, bool deep, std::vector<Check>& che
                           ""});
 }
 
-void checkContent(const Installation& found, const DoctorOptions& options, std::vector<Check>& checks) {
-    if (found.archives.empty() || (options.demo.empty() && options.map.empty())) return;
-    Pk3FileSource files({found.dataBase}, {found.game});
-    if (!options.demo.empty()) {
-        const std::vector<std::string> demos = files.list("demos", "");
-        const bool there = std::any_of(demos.begin(), demos.end(), [&](const std::string& name) {
-            return name == options.demo || name.starts_with(options.demo + ".dm_");
-        });
-        checks.push_back({"demo", there ? Finding::Good : Finding::Note,
-                          options.demo + (there ? " is there" : " is not in the game data"),
-                          there ? "" : "name one of its own demos with --demo"});
-    }
-    if (options.map.empty()) return;
+void checkDemo(Pk3FileSource& files, const DoctorOptions& options, std::vector<Check>& checks) {
     try {
+        const DemoFile demo = findDemo(files, options.demo);
+        checks.push_back({"demo", Finding::Good, demo.name + " is there", ""});
+    } catch (const ContentError& error) {
+        checks.push_back({"demo", options.demoNeeded ? Finding::Problem : Finding::Note, error.what(),
+                          "name one of the game's own demos with --demo"});
+    }
+}
+
+void checkMap(Pk3FileSource& files, const std::string& map, std::vector<Check>& checks) {
+    try {
+        readMap(files, map);
         TextureLibrary textures(files, TextureSettings{});
         MaterialLibrary materials(files, textures, MaterialSettings{});
-        loadWorld(files, "maps/" + options.map + ".bsp", materials, WorldSettings{});
-        checks.push_back({"map", Finding::Good, options.map + " loads", ""});
+        loadWorld(files, "maps/" + map + ".bsp", materials, WorldSettings{});
+        checks.push_back({"map", Finding::Good, map + " loads", ""});
     } catch (const ContentError& error) {
         checks.push_back(
             {"map", Finding::Problem, error.what(), "name another map with --map, or reinstall its archive"});
     }
 }
 
+void checkContent(const Installation& found, const DoctorOptions& options, std::vector<Check>& checks) {
+    if (found.archives.empty()) return;
+    Pk3FileSource files({found.dataBase}, {found.game});
+    if (!options.demo.empty()) checkDemo(files, options, checks);
+    if (!options.map.empty()) checkMap(files, options.map, checks);
+}
+
+Check checkRecording(const std::string& path) {
+    try {
+        Recording recording{fs::path(path)};
+        for (size_t i = 0; i < recording.frameCount(); ++i)
+            recording.readFrame(i);
+        const TraceInfo& info = recording.info();
+        return {"recording", Finding::Good,
+                formatText("%s: %u frames of %s", path.c_str(), info.frameCount, info.map.c_str()), ""};
+    } catch (const ContentError& error) {
+        return {"recording", Finding::Problem, error.what(), "make it again: q3rt record --demo D --out F.q3t"};
+    }
+}
+
 void checkModules(const Installation& found, std::vector<Check>& checks) {
     for (const char* name : {"renderer_vk", "renderer_rt"}) {
         const fs::path module = found.programFolder / (std::string(name) + "_x86_64.so");
-        const bool there = access(module.c_str(), R_OK) == 0;
-        checks.push_back({name, there ? Finding::Good : Finding::Problem,
-                          there ? module.string() : module.string() + " is missing", there ? "" : "./run --set-up"});
+        void* library = dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
+        checks.push_back({name, library ? Finding::Good : Finding::Problem, library ? module.string() : dlerror(),
+                          library ? "" : "./run --set-up"});
+        if (library) dlclose(library);
     }
 }
 
@@ -175,6 +197,7 @@ std::vector<Check> examineMachine(const DoctorOptions& options) {
     checkChoices(checks);
     checks.push_back(checkDisplay());
     checks.push_back(checkReference(found));
+    if (!options.recording.empty()) checks.push_back(checkRecording(options.recording));
     if (!options.outputFolder.empty()) checks.push_back(checkOutputFolder(options.outputFolder));
     return checks;
 }

@@ -20,7 +20,9 @@ struct Check {
 struct DoctorOptions {
     GameChoice game;
     std::string demo = "demo088-test1"; ///< to look for; empty: none
+    bool demoNeeded = false;            ///< its absence is a problem
     std::string map;                    ///< to load; empty: none
+    std::string recording;              ///< to read whole; empty: none
     std::string outputFolder;           ///< to try to write into; empty: none
     bool deep = false;                  ///< read every file of every archive and check its sum
 };

@@ -129,7 +129,8 @@ FloatImage decodeExr(std::span<const std::byte> bytes, const std::string& name) 
     } catch (const std::exception& error) { // the library's own errors, and ours without a name
         std::string reason = error.what();
         std::replace(reason.begin(), reason.end(), '\n', ' ');
-        throw ContentError(formatText("%s: no OpenEXR picture that can be read: %s", name.c_str(), reason.c_str()));
+        throw ContentError(formatText("%s: is no OpenEXR picture that can be read (%s); replace the image",
+                                      name.c_str(), reason.c_str()));
     }
 }
 

@@ -6,11 +6,9 @@
 
 namespace q3rt {
 
-MapStage::MapStage(FileSource& files, const std::string& map)
+MapStage::MapStage(Pk3FileSource& files, const std::string& map)
     : m_file("maps/" + map + ".bsp") {
-    const auto bytes = files.read(m_file);
-    if (!bytes) throw ContentError(m_file + " is not in the game's archives; choose another --map");
-    const Bsp bsp = parseBsp(*bytes, m_file);
+    const Bsp bsp = parseBsp(readMap(files, map), m_file);
     const std::vector<MapEntity> entities = parseEntities(bsp.entities);
     m_spawnPoints = findSpawnPoints(entities);
     m_scene = buildStillScene(bsp, entities);

@@ -12,8 +12,8 @@ namespace q3rt {
 
 class MapStage {
   public:
-    /// Reads the map. Throws ContentError if it is not in the game's archives.
-    MapStage(FileSource& files, const std::string& map);
+    /// Reads the map. Throws ContentError if it isn't there or is damaged.
+    MapStage(Pk3FileSource& files, const std::string& map);
 
     const std::string& file() const { return m_file; } ///< such as maps/oa_dm1.bsp
     /// "x y z pitch yaw" (units, degrees) or spawn:N. Throws UsageError.

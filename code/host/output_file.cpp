@@ -20,12 +20,34 @@ namespace fs = std::filesystem;
 
 } // namespace
 
+MadeFolders::MadeFolders(const fs::path& folder, const fs::path& result) {
+    fs::path path;
+    for (const fs::path& part : folder) {
+        path /= part;
+        std::error_code error;
+        if (fs::create_directory(path, error)) m_made.push_back(path);
+        if (error) fail(result, error.message().c_str());
+    }
+}
+
+MadeFolders::~MadeFolders() {
+    std::error_code ignored; // of folders that something is in
+    for (size_t i = m_made.size(); i-- > 0;)
+        fs::remove(m_made[i], ignored);
+}
+
 OutputFile::OutputFile(fs::path path)
     : m_path(std::move(path))
-    , m_temporary(m_path.string() + formatText(".%d.tmp", static_cast<int>(getpid()))) {
-    std::error_code ignored; // what follows says what is wrong
-    if (m_path.has_parent_path()) fs::create_directories(m_path.parent_path(), ignored);
+    , m_temporary(m_path.string() + formatText(".%d.tmp", static_cast<int>(getpid())))
+    , m_folders(m_path.parent_path(), m_path) {
+    std::error_code ignored; // opening says what is wrong
     if (fs::is_directory(m_path, ignored)) fail(m_path, std::strerror(EISDIR));
+    if (fs::exists(m_path, ignored) && !fs::is_regular_file(m_path, ignored)) {
+        // A device or a pipe (/dev/null, /dev/stdout) takes what is written and must not be replaced.
+        m_temporary = m_path;
+        m_committed = true;
+        return;
+    }
     const int file = open(m_temporary.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0666);
     if (file < 0) fail(m_path, std::strerror(errno));
     close(file);
@@ -44,6 +66,7 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::commit() {
+    if (m_committed) return;
     if (std::rename(m_temporary.c_str(), m_path.c_str()) != 0) fail(m_path, std::strerror(errno));
     m_committed = true;
 }
@@ -51,28 +74,27 @@ void OutputFile::commit() {
 void checkWritable(const fs::path& file) { const OutputFile trial(file); }
 
 OutputFolder::OutputFolder(fs::path path)
-    : m_path(std::move(path)) {
-    if (m_path.empty()) return;
-    std::error_code error;
-    m_isNew = fs::create_directories(m_path, error);
-    if (error) fail(m_path, error.message().c_str());
-    checkWritable(m_path / "q3rt");
+    : m_path(std::move(path))
+    , m_folders(m_path, m_path) {
+    if (isWanted()) checkWritable(m_path / "q3rt");
 }
 
-OutputFolder::~OutputFolder() {
-    std::error_code ignored;
-    if (m_isNew) fs::remove(m_path, ignored); // fails where something is in it
-}
-
-LineFile::LineFile(fs::path path)
-    : m_path(std::move(path)) {
-    if (m_path.empty()) return;
-    m_stream.open(m_path);
+LineFile::LineFile(fs::path path, Old old)
+    : m_path(std::move(path))
+    , m_folders(m_path.parent_path(), m_path) {
+    if (!isWanted()) return;
+    m_stream.open(m_path, old == Old::Continue ? std::ios::app : std::ios::trunc);
     if (!m_stream) fail(m_path, std::strerror(errno));
 }
 
+LineFile::~LineFile() {
+    std::error_code error;
+    if (isWanted() && fs::is_regular_file(m_path, error) && fs::file_size(m_path, error) == 0)
+        fs::remove(m_path, error);
+}
+
 void LineFile::append(const std::string& line) {
-    if (isWanted() && !(m_stream << line << '\n')) fail(m_path, std::strerror(errno));
+    if (isWanted() && !(m_stream << line << '\n' << std::flush)) fail(m_path, std::strerror(errno));
 }
 
 } // namespace q3rt

@@ -5,8 +5,22 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace q3rt {
+
+/// Makes the missing folders of a path; those that are still empty go with their owner.
+class MadeFolders {
+  public:
+    /// Throws UsageError naming `result`, for which they are made.
+    MadeFolders(const std::filesystem::path& folder, const std::filesystem::path& result);
+    ~MadeFolders();
+    MadeFolders(const MadeFolders&) = delete;
+    MadeFolders& operator=(const MadeFolders&) = delete;
+
+  private:
+    std::vector<std::filesystem::path> m_made; ///< outermost first
+};
 
 /// A place beside a file-to-be. What is there when the owner goes is removed; commit() gives it its name.
 class OutputFile {
@@ -23,18 +37,18 @@ class OutputFile {
 
   private:
     std::filesystem::path m_path, m_temporary;
+    MadeFolders m_folders;
     bool m_committed = false;
 };
 
 /// Throws the UsageError that OutputFile would, and leaves nothing behind.
 void checkWritable(const std::filesystem::path& file);
 
-/// A folder for many files. If nothing was put into it and it wasn't there before, it goes with its owner.
+/// A folder for many files.
 class OutputFolder {
   public:
     /// Empty: none. Throws UsageError if it can't be made or written to.
     explicit OutputFolder(std::filesystem::path path);
-    ~OutputFolder();
     OutputFolder(const OutputFolder&) = delete;
     OutputFolder& operator=(const OutputFolder&) = delete;
 
@@ -43,19 +57,25 @@ class OutputFolder {
 
   private:
     std::filesystem::path m_path;
-    bool m_isNew = false;
+    MadeFolders m_folders;
 };
 
-/// A text file that is of use however long it got: a line a frame.
+/// A text file that is of use however long it got: a line a frame. Without any line it goes with its owner.
 class LineFile {
   public:
+    enum class Old { Replace, Continue };
     /// Empty: none. Throws UsageError if it can't be written.
-    explicit LineFile(std::filesystem::path path);
+    explicit LineFile(std::filesystem::path path, Old old = Old::Replace);
+    ~LineFile();
+    LineFile(const LineFile&) = delete;
+    LineFile& operator=(const LineFile&) = delete;
     bool isWanted() const { return !m_path.empty(); }
+    /// At once in the file, whatever happens to the program next.
     void append(const std::string& line);
 
   private:
     std::filesystem::path m_path;
+    MadeFolders m_folders;
     std::ofstream m_stream;
 };
 

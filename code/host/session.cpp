@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "formats/bsp.hpp"
 #include "formats/image.hpp"
 #include "host/file_bytes.hpp"
 #include "host/interrupt.hpp"
@@ -88,7 +89,20 @@ std::unique_ptr<Pk3FileSource> openGame(const GameChoice& choice) {
         throw ContentError(formatText("%s has no pk3 archives: install openarena-data, or name the folders with "
                                       "--basepath and --game",
                                       (installation.dataBase / installation.game).c_str()));
-    return std::make_unique<Pk3FileSource>(std::vector{installation.dataBase}, std::vector{installation.game});
+    auto files = std::make_unique<Pk3FileSource>(std::vector{installation.dataBase}, std::vector{installation.game});
+    // The engine would go on without it, but what is drawn, counted or recorded here is to be complete.
+    if (!files->damages().empty()) throw ContentError(files->damages().front());
+    return files;
+}
+
+std::vector<std::byte> readMap(Pk3FileSource& files, const std::string& map) {
+    const std::string name = "maps/" + map + ".bsp";
+    auto bytes = files.readIntact(name);
+    if (!bytes)
+        throw ContentError(name + " is not in the game's archives: choose another --map, or name the folders with "
+                                  "--basepath and --game");
+    parseBsp(*bytes, name);
+    return std::move(*bytes);
 }
 
 RecordedFiles::RecordedFiles(const Recording& recording, const GameChoice& choice)

@@ -34,8 +34,10 @@ void addSetOption(CLI::App& command, CvarList& cvars);
 
 /// "rt", "vk", "null" ...: our module beside the program; a name with a slash or ".so": that file. Throws UsageError.
 std::filesystem::path findModule(const std::string& renderer);
-/// The game's archives. Throws ContentError if there are none.
+/// The game's archives. Throws ContentError if there are none, or if one is damaged.
 std::unique_ptr<Pk3FileSource> openGame(const GameChoice& choice);
+/// The file of the map of that name, such as oa_dm1. Throws ContentError if it isn't there or is damaged.
+std::vector<std::byte> readMap(Pk3FileSource& files, const std::string& map);
 
 /// The files that a recording names, wherever they are: in the game, in its mission pack, or under another name.
 class RecordedFiles : public FileSource {

@@ -124,12 +124,9 @@ std::optional<TradeResult> parseResult(const std::string& line) {
 }
 
 TradeFile::TradeFile(const fs::path& path)
-    : m_path(path) {
-    std::error_code error;
-    if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
-    if (fs::exists(path, error)) readExisting();
-    m_stream.open(path, std::ios::app | std::ios::binary);
-    if (!m_stream) throw UsageError(path.string() + ": can't be written; choose another --out");
+    : m_path(path)
+    , m_lines(path, LineFile::Old::Continue) {
+    readExisting();
 }
 
 void TradeFile::readExisting() {
@@ -160,8 +157,7 @@ const TradeResult* TradeFile::find(const std::string& key, const std::string& de
 }
 
 void TradeFile::append(const TradeResult& result) {
-    m_stream << toJsonLine(result) + "\n" << std::flush;
-    if (!m_stream) throw UsageError(m_path.string() + ": can't be written to: the disk may be full");
+    m_lines.append(toJsonLine(result));
     m_results.push_back(result);
 }
 

@@ -4,13 +4,13 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "host/output_file.hpp"
 #include "host/trade_points.hpp"
 
 namespace q3rt {
@@ -69,7 +69,7 @@ class TradeFile {
   private:
     void readExisting();
     std::filesystem::path m_path;
-    std::ofstream m_stream;
+    LineFile m_lines;
     std::vector<TradeResult> m_results;
 };
 

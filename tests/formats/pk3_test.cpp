@@ -144,15 +144,16 @@ TEST_F(Pk3Test, OriginNamesArchiveAndChecksum) {
     EXPECT_EQ(files.findOrigin("none"), std::nullopt);
 }
 
-TEST_F(Pk3Test, ADamagedArchiveIsReportedOnceAndPassedOver) {
+TEST_F(Pk3Test, ADamagedArchiveIsNamedAndPassedOver) {
     writeArchive("pak0.pk3", {{"a.txt", "good"}});
     writeFile("game/pak1.pk3", "this is no zip archive");
     writeFile("game/pak2.pk3", "");
     Pk3FileSource files = open();
     EXPECT_EQ(toText(files.read("a.txt")), "good");
-    ASSERT_EQ(m_warnings.size(), 2u);
-    EXPECT_NE(m_warnings[0].find("pak1.pk3"), std::string::npos);
-    EXPECT_NE(m_warnings[1].find("pak2.pk3"), std::string::npos);
+    ASSERT_EQ(files.damages().size(), 2u);
+    EXPECT_NE(files.damages()[0].find("pak1.pk3"), std::string::npos);
+    EXPECT_NE(files.damages()[1].find("pak2.pk3"), std::string::npos);
+    EXPECT_TRUE(m_warnings.empty());
     EXPECT_EQ(files.archives().size(), 1u);
 }
 
@@ -168,6 +169,7 @@ TEST_F(Pk3Test, ADamagedEntryFallsBackToTheNextCopy) {
     EXPECT_EQ(toText(files.read("a.txt")), "older");
     ASSERT_EQ(m_warnings.size(), 1u);
     EXPECT_NE(m_warnings[0].find("a.txt"), std::string::npos);
+    EXPECT_THROW(files.readIntact("a.txt"), ContentError);
 }
 
 TEST_F(Pk3Test, ATruncationIsRefusedUnlessNothingIsMissing) {

@@ -105,6 +105,11 @@ void playMap(HeadlessEngine& engine) {
     engine.endFrame(true);
 }
 
+/// The sanitizer reports leaks at the program's end, and by function names only in libraries that are still there.
+void keepMapped(const std::string& library) {
+    if (Q3RT_SANITIZED) dlopen(library.c_str(), RTLD_NOW | RTLD_NODELETE);
+}
+
 /// Numbers in [1, count]: all of them, or `few` of them evenly spread.
 std::vector<int> chooseNumbers(int count, int few) {
     std::vector<int> numbers;
@@ -117,6 +122,9 @@ class Injection : public testing::TestWithParam<Subject> {
   protected:
     void SetUp() override {
         setenv("Q3RT_VALIDATION", "1", 1);
+        keepMapped("libVkLayer_khronos_validation.so");
+        if (const char* icd = std::getenv("VK_DRIVER_FILES"))
+            keepMapped(std::filesystem::path(icd).replace_filename("libvulkan_lvp.so"));
         setLogSink([this](LogLevel, std::string_view line) {
             if (line.find("Vulkan validation") != std::string_view::npos) m_complaints.emplace_back(line);
         });
@@ -129,9 +137,7 @@ class Injection : public testing::TestWithParam<Subject> {
     /// Loads the module. False: this machine has no device for it.
     bool start(HeadlessEngine& engine) {
         const std::string path = formatText("%s/renderer_%s_x86_64.so", Q3RT_BUILD_DIR, GetParam().module);
-        // Leaks are reported at the end with the module's function names, which it takes along when it is unmapped.
-        static const bool stays = Q3RT_SANITIZED != 0;
-        if (stays) dlopen(path.c_str(), RTLD_NOW | RTLD_NODELETE);
+        keepMapped(path);
         for (const auto& [name, value] : {std::pair{"r_mode", std::string("-1")},
                                           {"r_customwidth", std::to_string(kWidth)},
                                           {"r_customheight", std::to_string(kHeight)},
