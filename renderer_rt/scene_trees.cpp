@@ -77,12 +77,12 @@ SceneTree sendSceneTree(GrowingBuffer& stream, std::span<const TreeInstance> ins
     std::vector<Bounds> boxes;
     std::vector<BvhInstance> placed;
     for (const TreeInstance& instance : instances) {
-        const mat4 inverse = glm::inverse(instance.worldFromModel);
+        const mat4 inverse(glm::inverse(glm::dmat4(instance.worldFromModel)));
         if (instance.tree.bounds.empty() || !isFinite(inverse)) continue;
         BvhInstance out{};
         for (int row = 0; row < 3; ++row)
-            for (int column = 0; column < 4; ++column)
-                out.modelFromWorld[row][column] = inverse[column][row];
+            out.modelFromWorld[row] =
+                vec4(inverse[0][row], inverse[1][row], inverse[2][row], instance.worldFromModel[3][row]);
         out.nodes = instance.tree.nodes;
         out.triangles = instance.tree.triangles;
         out.customIndex = instance.customIndex;

@@ -241,6 +241,7 @@ void TraceRenderer::prepareHistory(const FrameCommands& frame, const SceneView& 
                     .timeMs = scene.timeMs,
                     .sampleFrame = out.frame,
                     .pictureNumber = m_pictureNumber,
+                    .inverseError = out.inverseError,
                     .settingsKey = settingsKey(),
                     .entities = findEntities(frame, scene, m_geometry)};
     now.instances = findInstances(m_scene->tables(), m_geometry, now.corners);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "shaders/shared/constants.h"
+
 namespace q3rt {
 
 namespace {
@@ -190,6 +192,7 @@ TracedView TracedScene::prepare(const ViewGeometry& geometry, std::span<const Sc
     if (m_tables.hasNear) frame.flags |= kFrameNearEntities;
     if (m_tables.skies.size() > 1) frame.flags |= kFrameSkySurfaces;
     frame.layerOrderCount = m_tables.layerOrderCount;
+    frame.inverseError = usesStructures(m_backend) ? kMatrixInverseError : 0.0f;
     view.frameSlice = m_stream.reserve(sizeof(RtFrame));
     return view;
 }

@@ -146,6 +146,7 @@ std::vector<RtMotion> ViewMotion::toPrevious(VkDeviceAddress corners) const {
         out[i] = here.changesShape
                      ? makeShapeMotion(from, to, corners + there.firstCorner * sizeof(vec3), m_current.indexAddress[i])
                      : makeMotion(from, to);
+        out[i].inverseError = m_current.inverseError;
     }
     return out;
 }
@@ -162,6 +163,7 @@ std::vector<RtMotion> ViewMotion::toCurrent(VkDeviceAddress corners) const {
             motion = makeMotion(from, to);
         else if (there.keepsOrder)
             motion = makeShapeMotion(from, to, corners + there.firstCorner * sizeof(vec3), m_current.indexAddress[i]);
+        motion.inverseError = m_current.inverseError;
     }
     return out;
 }

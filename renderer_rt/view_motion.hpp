@@ -16,6 +16,7 @@ struct ViewInstant {
     int timeMs = 0;
     uint32_t sampleFrame = 0;   ///< of random numbers
     uint32_t pictureNumber = 0; ///< counts drawn frames
+    float inverseError = 0;     ///< of the back end's rays, see lib/offset.glsl
     std::vector<uint32_t> settingsKey;
     std::vector<EntityPlace> entities;
     std::vector<InstancePlace> instances;

@@ -32,9 +32,9 @@ RtTriangleLight makeTriangleLight(const TriangleLight& light) {
     out.areaQu2 = light.areaQu2;
     out.radiance = light.radiance;
     out.twoSided = light.twoSided ? 1 : 0;
-    // |n| . error <= sqrt(3) x the largest component's error; the whole triangle has one bound.
-    const float size = largestComponent(out.corner) + largestComponent(out.edge1) + largestComponent(out.edge2);
-    out.error = 1.7320508f * kHitPointError * size;
+    // |n| . error <= sqrt(3) x the largest component's error; the whole triangle has one bound. Samples are placed
+    // relative to the shaded point: only the triangle's own size counts.
+    out.error = 1.7320508f * kOwnTriangleError * (largestComponent(out.edge1) + largestComponent(out.edge2));
     return out;
 }
 
@@ -197,7 +197,10 @@ std::vector<RtTriangleLight> WorldLights::moveTriangles(const ViewGeometry& geom
         // A mover that the view doesn't hold is taken to be where the map has it.
         if (record == 0 || geometry.entities[record].worldFromModel == mat4(1.0f)) continue;
         if (moved.empty()) moved = m_resting;
-        moved[index] = makeTriangleLight(moveLight(light, geometry.entities[record].worldFromModel));
+        RtTriangleLight& out = moved[index];
+        out = makeTriangleLight(moveLight(light, geometry.entities[record].worldFromModel));
+        // The instance that shows the light is not made of these corners.
+        out.error += 1.7320508f * kMatrixInverseError * largestComponent(out.corner);
     }
     return moved;
 }

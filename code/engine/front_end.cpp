@@ -179,7 +179,13 @@ void FrontEnd::addPolys(int shader, size_t vertexCount, std::span<const PolyVert
 }
 
 void FrontEnd::addLight(const SceneLight& light) {
-    if (registered() && light.radius > 0) m_frame.lights.push_back(light);
+    if (!registered() || light.radius <= 0) return;
+    // The light's strength grows with the square of its radius.
+    if (!isFinite(light.origin) || !isFinite(light.color) || !std::isfinite(light.radius * light.radius)) {
+        logLineOnce(LogLevel::Warning, "a light whose place, colour or radius is not a number is left out");
+        return;
+    }
+    m_frame.lights.push_back(light);
 }
 
 void FrontEnd::renderScene(const SceneView& view) {

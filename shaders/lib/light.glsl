@@ -17,7 +17,8 @@ LightSample sampleTriangleLight(vec3 position, vec3 normal, vec3 corner, vec3 ed
 {
     vec2 weights = sampleTriangle(u, v);
     LightSample result;
-    result.direction = corner + edge1 * weights.x + edge2 * weights.y - position;
+    // In this order the rounding is of the way's size, however far from the origin both are.
+    result.direction = (corner - position) + (edge1 * weights.x + edge2 * weights.y);
     result.irradiance = vec3(0.0f);
     float distance2 = dot(result.direction, result.direction);
     float cosReceiver = dot(normal, result.direction);

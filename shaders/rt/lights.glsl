@@ -59,9 +59,9 @@ LightSample sampleTriangle(uint light, ShadingPoint point, vec2 random)
     // would light itself through nothing but rounding.
     if (abs(dot(l.normal, point.position - l.corner)) <= l.error + dot(abs(l.normal), point.error))
         result.irradiance = vec3(0.0);
-    // The ray ends in front of the light by the bound of the sampled point's error and of the ray's own rounding.
+    // The ray ends in front of the light by the bounds of the sampled point's error and of the intersector's own.
     float side = dot(l.normal, result.direction) < 0.0 ? 1.0 : -1.0;
-    float end = l.error + dot(abs(result.direction), vec3(kTransformError));
+    float end = l.error + dot(abs(result.direction), vec3(kHitPointError));
     result.direction += l.normal * (side * end);
     return result;
 }

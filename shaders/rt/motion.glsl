@@ -21,15 +21,17 @@ float cosineFrom(RtCamera camera, vec3 point, vec3 normal) { return abs(dot(norm
 // A point of an instance's surface, `barycentric` of a triangle of it, in the other frame.
 HitPoint movePoint(RtMotion motion, uint triangle, vec2 barycentric, HitPoint point)
 {
+    // A point's error knows its instance's way back already.
     if (motion.kind == kMotionRigid)
-        return transformHitPoint(motion.rows[0], motion.rows[1], motion.rows[2], point);
+        return transformHitPoint(motion.rows[0], motion.rows[1], motion.rows[2], point, 0.0);
     if (motion.kind != kMotionShape)
         return point;
     CornerIndexTable indices = CornerIndexTable(motion.indices);
     CornerTable corners = CornerTable(motion.corners);
     HitPoint local = makeHitPoint(corners.at[indices.at[3u * triangle]], corners.at[indices.at[3u * triangle + 1u]],
                                   corners.at[indices.at[3u * triangle + 2u]], barycentric);
-    return transformHitPoint(motion.shapeRows[0], motion.shapeRows[1], motion.shapeRows[2], local);
+    return transformHitPoint(motion.shapeRows[0], motion.shapeRows[1], motion.shapeRows[2], local,
+                             motion.inverseError);
 }
 
 // Of a shape this is its entity's turn alone.

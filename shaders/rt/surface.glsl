@@ -74,7 +74,7 @@ SurfacePoint makeSurfacePoint(uint instanceIndex, uint triangle, vec2 barycentri
     point.modelPosition = local.position;
     point.hit = found.entity == 0u ? local
                                    : transformHitPoint(entity.worldFromModel[0], entity.worldFromModel[1],
-                                                       entity.worldFromModel[2], local);
+                                                       entity.worldFromModel[2], local, rtFrame.inverseError);
     vec3 p0 = pointToWorld(entity, v0.position), p1 = pointToWorld(entity, v1.position),
          p2 = pointToWorld(entity, v2.position);
     // Clockwise triangles face the viewer: (c - a) x (b - a) points to them.

@@ -40,7 +40,7 @@ struct BvhTriangle {
 // A tree placed in the scene. Tables are device addresses (test code: pointers), so that trees built at load and trees
 // built for this frame can live in different buffers.
 struct BvhInstance {
-    vec4 modelFromWorld[3]; // rows of the affine transform
+    vec4 modelFromWorld[3]; // rows of the linear part; w: where the model's origin stands in the world
     BVH_TABLE nodes;        // BvhNode[], [0] the root
     BVH_TABLE triangles;    // BvhTriangle[] in leaf order
     uint customIndex;       // what a hit reports

@@ -25,16 +25,26 @@ SHARED_FLOAT kDynamicLightIntensity = 3.90625f;
 // u of binary32, round to nearest: |fl(x) - x| <= u |x|.
 SHARED_FLOAT kUnitRoundoff = 5.9604644775390625e-8f;
 
-// Error of a hit point rebuilt as p = v0 + b1 (v1 - v0) + b2 (v2 - v0), per component, in units of
-// s = |v0| + b1 |v1 - v0| + b2 |v2 - v0|. Each edge has 1 rounding, each product 1, their sum 1, the last sum 1:
-// gamma(4) s holds for the point in the space of the triangle. Barycentrics need not be exact: any pair gives a point
-// of the plane. The intersector that tests the next ray against the same triangle subtracts the origin (1), in an
-// instance after transforming the ray (3): gamma(8) s. It then multiplies differences across components (shear, cross
-// products), so that an error in any component reaches all: gamma(8) times the triangle's extent is added to each.
-// gamma(n) = n u / (1 - n u) (Higham 2002, lemma 3.1; Pharr, Jakob, Humphreys 2016, section 3.9).
+// Roundings, gamma(n) = n u / (1 - n u) (Higham 2002, lemma 3.1; Pharr, Jakob, Humphreys 2016, section 3.9).
+//
+// A hit point is rebuilt as p = v0 + (b1 (v1 - v0) + b2 (v2 - v0)). Barycentrics need not be exact: any pair gives a
+// point of the plane. Each edge has 1 rounding, each product 1, their sum 1: gamma(3) of b1 |v1 - v0| + b2 |v2 - v0|.
+// The last sum rounds once, by u |p|: far from the origin that alone is left.
+SHARED_FLOAT kEdgeSumError = 1.7881397e-7f; // gamma(3)
+// The intersector that tests the next ray against the same triangle subtracts the origin from its corners (1), makes
+// the normal of the edges (1, 2 in each product and difference), three products and two sums with it (5): gamma(9) of
+// the triangle's extent in each component would do for a right angle; an extent is at least 1/sqrt(3) of an edge.
+SHARED_FLOAT kOwnTriangleError = 4.7683738e-7f; // gamma(8)
+// Of a place in the world: both of the above as a share of the whole point, for what is not rebuilt so.
 SHARED_FLOAT kHitPointError = 4.7683738e-7f; // gamma(8)
-// A rigid or scaled transform of a point: 3 products and 3 sums a component, on |row| |p| + |t|.
+// A rotation, perhaps with a scale, of a point: 3 products and 2 sums a component, on |row| |p|. Adding the place
+// rounds once more, by u of the sum.
 SHARED_FLOAT kTransformError = 1.7881397e-7f; // gamma(3)
+// The way back into an instance: the place is subtracted (1), the rounded inverse (2) turns (3).
+SHARED_FLOAT kInverseError = 3.5762808e-7f; // gamma(6)
+// The same with a matrix, as drivers' intersectors have it: the inverse's entries (3), products and sums (4), on the
+// point and on the place.
+SHARED_FLOAT kMatrixInverseError = 4.1723271e-7f; // gamma(7)
 // Refractive indices against air, visible light.
 SHARED_FLOAT kWaterIndex = 1.333f;
 SHARED_FLOAT kGlassIndex = 1.5f;

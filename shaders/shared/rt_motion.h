@@ -26,7 +26,7 @@ struct RtMotion {
     SHARED_ADDRESS corners; // shape: vec3[], model space there, by vertex
     SHARED_ADDRESS indices; // shape: uint[3] a triangle, in `corners`
     uint kind;              // kMotion*
-    uint reserved;
+    float inverseError;     // shape: of the back end, see lib/offset.glsl
 };
 
 // Where what a pixel shows appears to be: its lit layer, or else the first thing that hides what is behind it; its

@@ -230,7 +230,7 @@ struct RtFrame {
     vec3 previousEye;
     vec2 jitter; // in a pixel, [0, 1)
     float exposure; // factor
-    uint reserved;
+    float inverseError; // of the back end's transform of rays into instances, see lib/offset.glsl
 };
 
 struct RtPush {

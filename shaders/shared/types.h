@@ -12,11 +12,13 @@ using uint = uint32_t;
 #define SHARED_CONST inline constexpr uint
 #define INOUT(type) type&
 #define OUT(type) type&
+#define PRECISE
 #else
 #define SHARED_BEGIN
 #define SHARED_END
 #define SHARED_CONST const uint
 #define INOUT(type) inout type
 #define OUT(type) out type
+#define PRECISE precise
 #endif
 #endif

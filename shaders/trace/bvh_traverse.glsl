@@ -23,25 +23,25 @@ BvhRay makeBvhRay(vec3 origin, vec3 direction)
 }
 
 // The ray in the model space of an instance; the direction keeps its scale, so that t means the same in both spaces.
+// Its origin is taken relative to the instance's place first: what is left to turn is small wherever that is.
 BvhRay toModelSpace(BvhInstance instance, vec3 origin, vec3 direction)
 {
-    vec4 o = vec4(origin, 1.0);
-    vec4 d = vec4(direction, 0.0);
-    return makeBvhRay(vec3(dot(instance.modelFromWorld[0], o), dot(instance.modelFromWorld[1], o),
-                           dot(instance.modelFromWorld[2], o)),
-                      vec3(dot(instance.modelFromWorld[0], d), dot(instance.modelFromWorld[1], d),
-                           dot(instance.modelFromWorld[2], d)));
+    vec4 m0 = instance.modelFromWorld[0], m1 = instance.modelFromWorld[1], m2 = instance.modelFromWorld[2];
+    vec3 r0 = vec3(m0), r1 = vec3(m1), r2 = vec3(m2);
+    vec3 away = origin - vec3(m0.w, m1.w, m2.w);
+    return makeBvhRay(vec3(dot(r0, away), dot(r1, away), dot(r2, away)),
+                      vec3(dot(r0, direction), dot(r1, direction), dot(r2, direction)));
 }
 
 // Tests the triangles of a leaf, shortening tMax at each one that counts; true when one did.
-bool visitLeaf(BvhRay ray, BvhInstance instance, uint first, uint count, float tMin, INOUT(float) tMax,
+bool visitLeaf(BvhRay ray, RayFrame frame, BvhInstance instance, uint first, uint count, float tMin, INOUT(float) tMax,
                INOUT(BvhQuery) query)
 {
     bool counted = false;
     for (uint i = 0u; i < count; ++i) {
         BvhTriangle triangle = loadBvhTriangle(instance.triangles, first + i);
-        TriangleHit test = intersectTriangle(ray.origin, ray.direction, triangle.corner0, triangle.corner1,
-                                             triangle.corner2, tMin, tMax);
+        TriangleHit test = intersectTriangle(ray.origin, frame, ray.direction, triangle.corner0,
+                                             triangle.corner1, triangle.corner2, tMin, tMax);
         if (test.hit && onBvhTriangle(query, instance, triangle, test)) {
             tMax = test.t;
             counted = true;
@@ -64,6 +64,7 @@ float traverseBvh(BVH_TABLE sceneNodes, vec3 origin, vec3 direction, float tMin,
     BvhInstance instance;
     BvhRay world = makeBvhRay(origin, direction);
     BvhRay ray = world;
+    RayFrame frame; // of a model's ray: triangles are met there only
     BVH_TABLE nodes = sceneNodes;
     uint child = 0u;
     uint count = 0u;
@@ -85,7 +86,7 @@ float traverseBvh(BVH_TABLE sceneNodes, vec3 origin, vec3 direction, float tMin,
                 continue;
             }
         } else if (modelBase != kNoModel) {
-            if (visitLeaf(ray, instance, child & ~kBvhLeafBit, count, tMin, tMax, query) && anyHit)
+            if (visitLeaf(ray, frame, instance, child & ~kBvhLeafBit, count, tMin, tMax, query) && anyHit)
                 return tMax;
         } else if (count > 0u) {
             // One instance of a scene leaf at a time; the rest of the leaf waits on the stack.
@@ -99,6 +100,7 @@ float traverseBvh(BVH_TABLE sceneNodes, vec3 origin, vec3 direction, float tMin,
             if ((instance.mask & mask) != 0u) {
                 modelBase = top;
                 ray = toModelSpace(instance, origin, direction);
+                frame = makeRayFrame(ray.direction, ray.reciprocal);
                 nodes = instance.nodes;
                 child = 0u;
                 count = 0u;

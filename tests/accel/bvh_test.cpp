@@ -238,7 +238,7 @@ TEST(Traversal, InstancesMasksAcceptAndAnyHit) {
     TestScene scene;
     BvhInstance near = scene.addModel(bvh, triangle, transparent);
     BvhInstance far = near;
-    far.modelFromWorld[0].w = -5; // world x = model x + 5
+    far.modelFromWorld[0].w = 5; // world x = model x + 5
     near.customIndex = 1;
     far.customIndex = 2;
     near.mask = 1;
@@ -265,7 +265,7 @@ TEST(Traversal, FiveThousandInstancesAndEmptyScenes) {
     for (int i = 0; i < 5000; ++i) {
         BvhInstance instance = model;
         instance.customIndex = static_cast<uint32_t>(i);
-        instance.modelFromWorld[0].w = -static_cast<float>(i + 1);
+        instance.modelFromWorld[0].w = static_cast<float>(i + 1);
         scene.instances.push_back(instance);
         const vec3 offset(static_cast<float>(i + 1), 0, 0);
         bounds.push_back({bvh.bounds.mins + offset, bvh.bounds.maxs + offset});

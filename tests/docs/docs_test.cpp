@@ -62,6 +62,23 @@ TEST(Docs, LinksLeadToFiles) {
     EXPECT_GT(checked, 5u);
 }
 
+/// `Suite.Name` in a page is a test of this repository.
+TEST(Docs, NamedTestsExist) {
+    std::string tests;
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / "tests"))
+        if (entry.path().extension() == ".cpp") tests += readText(entry.path());
+    const std::regex name("`([A-Z]\\w+)\\.([A-Z]\\w+)`");
+    size_t checked = 0;
+    for (const fs::path& page : listPages()) {
+        const std::string text = readText(page);
+        for (std::sregex_iterator found(text.begin(), text.end(), name), end; found != end; ++found, ++checked) {
+            const std::string arguments = "(" + (*found)[1].str() + ", " + (*found)[2].str() + ")";
+            EXPECT_NE(tests.find(arguments), std::string::npos) << page << " names " << (*found)[0];
+        }
+    }
+    EXPECT_GT(checked, 20u);
+}
+
 TEST(Docs, MarkedCommandsRun) {
     if (!findGameFolder()) GTEST_SKIP() << kNoGameData;
     // A folder that looks like the repository's root after a build, so that nothing is written into the real one.

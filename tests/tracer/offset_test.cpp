@@ -44,7 +44,7 @@ int countSelfHits(float distance, int count, bool instanced) {
         const vec3 shift(distance, -distance, distance);
         if (instanced)
             point = shader::transformHitPoint(vec4(1, 0, 0, shift.x), vec4(0, 1, 0, shift.y), vec4(0, 0, 1, shift.z),
-                                              point);
+                                              point, 0.0f);
         const vec3 cross = glm::cross(corner[2] - corner[0], corner[1] - corner[0]);
         if (glm::length(cross) == 0.0f) continue;
         const vec3 normal = glm::normalize(cross);
@@ -52,7 +52,10 @@ int countSelfHits(float distance, int count, bool instanced) {
         if (instanced) origin -= shift; // what the intersector does to the ray
         vec3 direction(gauss(generator), gauss(generator), gauss(generator));
         if (dot(direction, normal) < 0) direction = -direction;
-        hits += shader::intersectTriangle(origin, direction, corner[0], corner[1], corner[2], 0.0f, 1e30f).hit ? 1 : 0;
+        const shader::RayFrame frame = shader::makeRayFrame(direction, shader::slabReciprocal(direction));
+        hits += shader::intersectTriangle(origin, frame, direction, corner[0], corner[1], corner[2], 0.0f, 1e30f).hit
+                    ? 1
+                    : 0;
     }
     return hits;
 }

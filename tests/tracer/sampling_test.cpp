@@ -39,9 +39,14 @@ TEST(Constants, AreTheStandardLibrarys) {
     EXPECT_FLOAT_EQ(kTwoPi, 2 * std::numbers::pi_v<float>);
     const double u = std::ldexp(1.0, -24);
     EXPECT_EQ(kUnitRoundoff, static_cast<float>(u));
-    EXPECT_GE(kHitPointError, static_cast<float>(8 * u / (1 - 8 * u)));
-    EXPECT_GE(kTransformError, static_cast<float>(3 * u / (1 - 3 * u)));
-    EXPECT_GE(kSameDistanceError, static_cast<float>(19 * u / (1 - 19 * u)));
+    const auto gamma = [u](int n) { return static_cast<float>(n * u / (1 - n * u)); };
+    EXPECT_GE(kEdgeSumError, gamma(3));
+    EXPECT_GE(kOwnTriangleError, gamma(8));
+    EXPECT_GE(kHitPointError, gamma(8));
+    EXPECT_GE(kTransformError, gamma(3));
+    EXPECT_GE(kInverseError, gamma(6));
+    EXPECT_GE(kMatrixInverseError, gamma(7));
+    EXPECT_GE(kSameDistanceError, gamma(19));
     // 4000 / (255 d^2) of the light picture, d in sixteenths of the radius, at irradiance 63.75.
     EXPECT_NEAR(kDynamicLightIntensity, 63.75 * 4000 / (255.0 * 256), 1e-5);
 }

@@ -38,6 +38,14 @@ std::vector<vec3> WorldTriangles::pointsInside(size_t count, uint32_t seed) cons
     return points;
 }
 
+vec3 WorldTriangles::playerStart() const {
+    const vec3 eyeAboveStart(0, 0, 26);
+    for (const MapEntity& entity : m_world->entities)
+        if (entity.className() == "info_player_deathmatch")
+            if (const auto origin = entity.vector("origin")) return *origin + eyeAboveStart;
+    return (m_world->bounds.mins + m_world->bounds.maxs) * 0.5f;
+}
+
 float WorldTriangles::farQu() const { return 2 * glm::length(m_world->bounds.maxs - m_world->bounds.mins); }
 
 std::vector<vec3> unitDirections(size_t count, uint32_t seed) {

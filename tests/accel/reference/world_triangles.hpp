@@ -18,6 +18,8 @@ class WorldTriangles {
     size_t count() const { return m_positions.size() / 3; }
     /// `count` points spread evenly over the empty space inside the map.
     std::vector<vec3> pointsInside(size_t count, uint32_t seed) const;
+    /// Where the eyes of the map's first player start are.
+    vec3 playerStart() const;
     /// Longer than any line inside the map, qu.
     float farQu() const;
 
