@@ -94,7 +94,8 @@ void runPlay(PlayArguments& a) {
     if (run.headless && a.demo.empty() && run.frameLimit == 0)
         throw UsageError("a game without a display needs an end: give --demo, or --map with --frames");
     run.timed = run.timed || run.headless;
-    run.watched = run.headless || !a.out.empty() || !a.stats.empty();
+    // What only the interposer can do or tell.
+    run.watched = run.headless || !a.out.empty() || !a.stats.empty() || run.frameLimit > 0 || a.json;
     run.pictureEvery = a.out.empty() ? 0 : a.every;
     size_t expected = run.demo.snapshots;
     if (run.frameLimit > 0) expected = static_cast<size_t>(run.frameLimit);

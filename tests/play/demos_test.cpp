@@ -1,6 +1,8 @@
 // Every demo that OpenArena brings: recorded to its end, with the number of frames that the engine itself reports; and
 // played.
 
+#include <cstdlib>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -38,6 +40,24 @@ INSTANTIATE_TEST_SUITE_P(All, Demos, testing::ValuesIn(kDemos), [](const auto& i
     std::erase(name, '-');
     return name;
 });
+
+TEST(Demos, ArePlayedInAWindow) {
+    if (const std::string why = whyNoEngine(Display::X11); !why.empty()) GTEST_SKIP() << why;
+    const std::filesystem::path folder = makeScratchFolder("window");
+    const std::string program = std::string(Q3RT_BUILD_DIR) + "/q3rt", out = (folder / "out").string();
+    const std::string command = "timeout 300 xvfb-run -a '" + program +
+                                "' play --demo demo088-test1 --renderer vk --size 160x120 --frames 5 --every 4 --json" +
+                                " --out '" + out + "' --set s_initsound=0 >'" + (folder / "stdout").string() + "' 2>'" +
+                                (folder / "stderr").string() + "' </dev/null";
+    const int status = std::system(command.c_str());
+    const std::vector<std::byte> errors = readFile(folder / "stderr");
+    const std::string_view shown(reinterpret_cast<const char*>(errors.data()), errors.size());
+    if (shown.find("no Vulkan d") != std::string_view::npos) GTEST_SKIP() << shown;
+    ASSERT_EQ(status, 0) << shown;
+    const auto summary = nlohmann::json::parse(readFile(folder / "out" / "summary.json"));
+    EXPECT_EQ(summary["frames"], 5);
+    EXPECT_EQ(summary["pictures"], 2);
+}
 
 TEST(Demos, WhoseMapIsMissingFailsInOneLine) {
     if (const std::string why = whyNoEngine(Display::None); !why.empty()) GTEST_SKIP() << why;
