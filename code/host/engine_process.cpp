@@ -100,7 +100,7 @@ Child::Child(const EngineCommand& command, int outputFile, int socket) {
     m_process = fork();
     if (m_process < 0) throw UsageError(formatText("the engine can't be started: %s", std::strerror(errno)));
     if (m_process > 0) return;
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    prctl(PR_SET_PDEATHSIG, outputFile >= 0 ? SIGKILL : SIGTERM); // a window asks for an orderly end
     const int input = open("/dev/null", O_RDONLY);
     if (outputFile >= 0) {
         setpgid(0, 0); // the terminal's Ctrl-C is for us, who then end the engine
@@ -177,8 +177,8 @@ std::string lastError(const fs::path& console) {
     for (size_t start = 0; start < text.size();) {
         const size_t end = std::min(text.find('\n', start), text.size());
         const std::string line = text.substr(start, end - start);
-        for (const char* beginning : {"ERROR: ", "^1recording ended", "recording ended", "renderer_q3trecord"})
-            if (line.starts_with(beginning)) found = line;
+        for (const char* part : {"ERROR: ", kRecordingEnded, "renderer_q3trecord: "})
+            if (const size_t at = line.find(part); at != std::string::npos) found = line.substr(at);
         start = end + 1;
     }
     return found;
@@ -201,6 +201,7 @@ void runEngine(const EngineRun& run, const std::function<void(const WatchedFrame
     if (run.watched) receiveFrames(ours.number, onFrame);
     const int status = child.wait();
     const std::string error = run.headless ? lastError(console) : std::string();
+    if (error.starts_with(kRecordingEnded)) throw UsageError(error.substr(std::strlen(kRecordingEnded)));
     if (!error.empty() || status != 0)
         throw DeviceError(formatText("the engine failed (status %d)%s%s; 'q3rt doctor' looks for the cause", status,
                                      error.empty() ? "" : ": ", error.c_str()));

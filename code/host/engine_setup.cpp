@@ -1,6 +1,9 @@
 #include "host/engine_setup.hpp"
 
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <set>
 #include <unistd.h>
@@ -122,6 +125,23 @@ fs::path cacheFolder() {
     return folder;
 }
 
+namespace {
+
+/// Folders whose owners were killed.
+void removeOrphans(const fs::path& cache) {
+    std::error_code error;
+    std::vector<fs::path> orphans;
+    for (fs::directory_iterator entry(cache, error), end; !error && entry != end; entry.increment(error)) {
+        int owner = 0;
+        const bool isOurs = std::sscanf(entry->path().filename().c_str(), "run-%d-", &owner) == 1;
+        if (isOurs && kill(owner, 0) != 0 && errno == ESRCH) orphans.push_back(entry->path());
+    }
+    for (const fs::path& orphan : orphans)
+        fs::remove_all(orphan, error);
+}
+
+} // namespace
+
 RunFolder::RunFolder(bool fresh)
     : m_fresh(fresh) {
     const fs::path cache = cacheFolder();
@@ -130,7 +150,8 @@ RunFolder::RunFolder(bool fresh)
         fs::create_directories(m_path);
         return;
     }
-    std::string name = (cache / "run-XXXXXX").string();
+    removeOrphans(cache);
+    std::string name = (cache / formatText("run-%d-XXXXXX", static_cast<int>(getpid()))).string();
     if (!mkdtemp(name.data()))
         throw UsageError(formatText("%s: can't be written to: %s; set XDG_CACHE_HOME to a writable folder",
                                     cache.c_str(), std::strerror(errno)));

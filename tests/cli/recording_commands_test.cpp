@@ -1,7 +1,9 @@
 // play, record, replay, view, subset from outside: exit codes, one error line, files.
 
+#include <csignal>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "support/game_data.hpp"
 #include "support/run_program.hpp"
@@ -103,6 +105,40 @@ TEST(RecordingCommands, AStretchOfTheDemoIsRecordedAndReplayed) {
     const ProgramResult subset = runQ3rt({"subset", "--trace", recording, "--out", (folder / "s.pk3").string()});
     EXPECT_EQ(subset.exitCode, 0) << subset.errors;
     EXPECT_GT(fs::file_size(folder / "s.pk3"), 1000000u);
+}
+
+TEST(RecordingCommands, AFullDiskEndsTheRecordingInOneLine) {
+    if (!canPlay()) GTEST_SKIP() << kNoGameData;
+    const fs::path folder = makeScratchFolder("full_disk");
+    // No file may grow beyond 40 KB: writes fail as on a full disk.
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit small{40 << 10, before.rlim_max};
+    signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &small);
+    const ProgramResult result =
+        runQ3rt({"record", "--demo", "demo088-test1", "--out", (folder / "a.q3t").string(), "--count", "400"});
+    setrlimit(RLIMIT_FSIZE, &before);
+    signal(SIGXFSZ, SIG_DFL);
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_NE(result.errors.find("a.q3t"), std::string::npos) << result.errors;
+    EXPECT_NE(result.errors.find("can't be written"), std::string::npos) << result.errors;
+    EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST(RecordingCommands, WhatAKilledRunLeftIsRemovedByTheNext) {
+    if (!canPlay()) GTEST_SKIP() << kNoGameData;
+    const fs::path cache = makeScratchFolder("orphans"), folder = makeScratchFolder("orphans_results");
+    const std::vector<std::string> environment = {"XDG_CACHE_HOME=" + cache.string()};
+    const ProgramResult killed =
+        interruptQ3rt({"record", "--demo", "demo088-test1", "--out", (folder / "a.q3t").string()}, environment, SIGKILL,
+                      [&] { return fs::exists(cache / "q3rt"); });
+    EXPECT_EQ(killed.exitCode, -1);
+    EXPECT_FALSE(fs::is_empty(cache / "q3rt"));
+    const ProgramResult next = runQ3rt(
+        {"record", "--demo", "demo088-test1", "--count", "1", "--out", (folder / "b.q3t").string()}, environment);
+    EXPECT_EQ(next.exitCode, 0) << next.errors;
+    EXPECT_TRUE(fs::is_empty(cache / "q3rt")) << fs::directory_iterator(cache / "q3rt")->path();
 }
 
 } // namespace

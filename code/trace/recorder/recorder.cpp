@@ -1,6 +1,9 @@
 #include "trace/recorder/recorder.hpp"
 
+#include <cstdlib>
 #include <zlib.h>
+
+#include "trace/recorder/watch_protocol.hpp"
 
 namespace q3rt {
 
@@ -51,7 +54,9 @@ void Recorder::noteFile(const char* name, const void* bytes, long length) {
 void abandonRecording(const char* why) {
     delete recording.recorder;
     recording.recorder = nullptr;
-    recording.engine.Printf(Q3_PRINT_ERROR, "recording ended: %s\n", why);
+    recording.engine.Printf(Q3_PRINT_ERROR, "%s%s\n", kRecordingEnded, why);
+    // Whoever started the engine for the recording's sake need not wait for the demo's end.
+    if (std::getenv(kWatchSocket)) recording.engine.Cmd_ExecuteText(Q3_EXEC_APPEND, "quit\n");
 }
 
 } // namespace q3rt

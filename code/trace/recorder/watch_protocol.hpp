@@ -18,6 +18,9 @@ struct WatchMessage {
     uint32_t pictureBytes = 0; ///< BGR rows, bottom first, padded to 4 bytes; they follow the text
 };
 
+/// How the line on the engine's console begins that says why a recording failed.
+inline constexpr const char* kRecordingEnded = "recording ended: ";
+
 /// Environment of the interposer. All but the socket may be absent.
 inline constexpr const char* kWatchSocket = "Q3RT_WATCH_FD";
 inline constexpr const char* kWatchEvery = "Q3RT_WATCH_EVERY";   ///< a picture every so many world frames
