@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "formats/text_case.hpp"
 #include "host/commands.hpp"
+#include "host/evaluation.hpp"
 #include "host/file_bytes.hpp"
 #include "host/trade_front.hpp"
 #include "host/trade_measure.hpp"
@@ -18,10 +19,11 @@ namespace q3rt {
 namespace {
 
 struct TradeArguments {
-    std::string recording, renderer = "rt", out, svg, shard = "0/1";
+    std::string recording, renderer = "rt", out, svg, shard = "0/1", evaluation;
     MapSourceOptions map;
     std::vector<int> recordedFrames;
     PictureSize size{320, 240};
+    std::vector<std::string> sizes = {"1280x720", "1600x900", "1920x1080", "2560x1440"};
     CvarList fixed, referenceSet;
     std::vector<std::string> axes;
     TradePlan plan;
@@ -72,7 +74,7 @@ std::vector<TradePoint> listPoints(const TradeArguments& a, const TradeSession& 
     if (axes.empty())
         return listStandardPoints(a.smoke ? kSmokePointCount : kStandardPointCount, a.size, a.fixed, isDeclared);
     for (const TradeAxis& axis : axes)
-        if (axis.name != "size" && !isDeclared(axis.name))
+        if (!isPointAxis(axis.name) && !isDeclared(axis.name))
             throw UsageError("--axis " + axis.name + ": the renderer " + a.renderer + " has no such setting");
     return crossAxes(axes, a.size, a.fixed);
 }
@@ -112,6 +114,41 @@ std::string readCommandLine() {
     return command;
 }
 
+/// All sizes of a list, as the axis "size" has them.
+std::vector<PictureSize> parseSizes(const std::vector<std::string>& texts) {
+    std::vector<PictureSize> sizes;
+    for (const TradePoint& point : crossAxes(std::vector{TradeAxis{"size", texts}}, {}, {}))
+        sizes.push_back(point.size);
+    return sizes;
+}
+
+void evaluate(const TradeArguments& a) {
+    if (a.map.map.empty()) throw CLI::ValidationError("trade", "--evaluation wants --map M, and may have a recording");
+    EvaluationOptions options{.folder = a.evaluation,
+                              .module = findModule(a.renderer),
+                              .map = a.map,
+                              .recording = a.recording,
+                              .sizes = parseSizes(a.sizes),
+                              .sampleSize = a.size,
+                              .fixed = a.fixed,
+                              .plan = a.plan,
+                              .command = readCommandLine(),
+                              .game = a.game,
+                              .verbose = a.verbose};
+    if (options.map.places.empty()) options.map.places = {"spawn:0"};
+    const bool single = options.map.places.size() == 1 && expandPlace(options.map.places[0]).size() == 1;
+    options.plan.pictures = a.pictures > 0 ? a.pictures : single ? kPicturesOfSingleView : 1;
+    // Whole-pixel samples and TAA see places within a pixel: the reference does so too.
+    std::map<std::string, std::string> reference(a.fixed.begin(), a.fixed.end());
+    for (const auto& [name, value] : kReferenceCvars)
+        setCvar(reference, name, value);
+    setCvar(reference, "rt_antialiasing", "1");
+    for (const auto& [name, value] : a.referenceSet)
+        setCvar(reference, name, value);
+    options.plan.reference = reference;
+    runEvaluation(options);
+}
+
 /// Points grouped by what a new start costs: first those that need the same one as the references.
 std::vector<TradePoint> orderByStart(std::vector<TradePoint> points, const TradeSession& session) {
     const auto startOf = [&](const TradePoint& point) {
@@ -134,10 +171,12 @@ void measureMissing(TradeSession& session, TradeMeter& meter, TradeFile& file, c
     std::unique_ptr<Progress> progress;
     const std::string command = readCommandLine();
     size_t done = 0;
+    size_t frameCount = 0;
+    for (const TradePoint& point : missing)
+        frameCount += static_cast<size_t>(meter.framesOfPoint(point));
     for (const TradePoint& point : missing) {
         meter.prepareReferences(point.size);
-        if (!progress)
-            progress = std::make_unique<Progress>("frame", missing.size() * static_cast<size_t>(meter.framesOfPoint()));
+        if (!progress) progress = std::make_unique<Progress>("frame", frameCount);
         TradeResult result =
             meter.measure(point, [&](int count) { progress->advance(done += static_cast<size_t>(count)); });
         result.command = command;
@@ -208,7 +247,8 @@ void addSweepOptions(CLI::App& command, TradeArguments& a) {
     command.add_flag("--smoke", a.smoke, "10 points instead of 24: the most telling ones");
     command
         .add_option("--axis", a.axes,
-                    "CVAR=V1,V2,... or size=160x120,320x240: sweep every combination of these instead; several times")
+                    "CVAR=V1,V2,..., size=160x120,320x240 or frames=1,4 (averaged): sweep every combination of these "
+                    "instead; several times")
         ->type_name("CVAR=V1,V2,...")
         ->check(checkedBy(parseAxis))
         ->expected(1)
@@ -265,8 +305,18 @@ void addTradeCommand(CLI::App& app, int& exitCode) {
         ->check(CLI::Range(1.0f, 179.0f))
         ->capture_default_str();
     command->add_option("--time", a->map.timeMs, "The clock of a map's views, in ms")->capture_default_str();
-    command->add_option("--out", a->out, "File for one JSON object a point; points in it are not measured again")
-        ->required();
+    CLI::Option* out =
+        command->add_option("--out", a->out, "File for one JSON object a point; points in it are not measured again");
+    command
+        ->add_option("--evaluation", a->evaluation,
+                     "In place of a sweep: the thesis' figures 7.7 to 7.11 of a map, and 7.13 if a recording is named "
+                     "too, as SVG and tables in this folder")
+        ->type_name("FOLDER")
+        ->excludes(out);
+    command
+        ->add_option("--sizes", a->sizes, "Picture sizes of the evaluation's figures 7.7 to 7.9; 7.13 takes the first")
+        ->delimiter(',')
+        ->capture_default_str();
     command->add_option("--svg", a->svg, "Also draw time against error into this file");
     addRendererOption(*command, a->renderer);
     addSizeOption(*command, a->size);
@@ -275,8 +325,12 @@ void addTradeCommand(CLI::App& app, int& exitCode) {
     command->add_flag("--json", a->json, "Print a JSON line a point instead of the table");
     command->add_flag("--verbose", a->verbose, "Show the renderer's messages");
     addGameOptions(*command, a->game);
-    command->callback([a, &exitCode] {
-        runTrade(*a);
+    command->callback([a, out, &exitCode] {
+        if (a->evaluation.empty() && out->empty()) throw CLI::RequiredError("--out");
+        if (a->evaluation.empty())
+            runTrade(*a);
+        else
+            evaluate(*a);
         exitCode = 0;
     });
 }

@@ -27,11 +27,23 @@ class FigureList {
             if (value.is_number()) m_figures[name].push_back(value);
         const auto passes = json.find("passes");
         if (passes == json.end() || !passes->is_object()) return;
-        for (const auto& [name, value] : passes->items())
-            if (value.is_number()) m_passes[name].push_back(value);
+        std::map<std::string, double> groups;
+        for (const auto& [name, value] : passes->items()) {
+            if (!value.is_number()) continue;
+            m_passes[name].push_back(value);
+            groups[name.substr(0, name.find(' '))] += value.get<double>();
+        }
+        for (const auto& [name, ms] : groups)
+            m_groups[name].push_back(ms);
     }
     std::map<std::string, double> figures() const { return mediansOf(m_figures); }
     std::map<std::string, double> passes() const { return mediansOf(m_passes); }
+    std::map<std::string, TradeTimes> groups() const {
+        std::map<std::string, TradeTimes> times;
+        for (const auto& [name, ms] : m_groups)
+            times[name] = summarizeTrade(ms);
+        return times;
+    }
 
   private:
     static std::map<std::string, double> mediansOf(const std::map<std::string, std::vector<double>>& lists) {
@@ -40,7 +52,7 @@ class FigureList {
             medians[name] = computeQuantile(values, 0.5);
         return medians;
     }
-    std::map<std::string, std::vector<double>> m_figures, m_passes;
+    std::map<std::string, std::vector<double>> m_figures, m_passes, m_groups;
 };
 
 TradeErrors meanOf(const std::vector<TradeErrors>& errors) {
@@ -56,6 +68,10 @@ TradeErrors meanOf(const std::vector<TradeErrors>& errors) {
 }
 
 void storeErrors(const std::vector<TradeErrors>& samples, TradeResult& result) {
+    if (samples.empty()) {
+        result.ssim = result.flip = result.psnr = result.relmse = {INFINITY, std::nullopt};
+        return;
+    }
     const auto estimate = [&](double TradeErrors::*member) {
         std::vector<double> values;
         for (const TradeErrors& sample : samples)
@@ -75,14 +91,16 @@ TradeMeter::TradeMeter(TradeSession& session, const TradeSource& source, TradePl
     , m_source(source)
     , m_plan(std::move(plan)) {}
 
-int TradeMeter::framesOfPoint() const {
-    return static_cast<int>(m_source.viewNames().size()) * (m_plan.warmup + m_plan.pictures + m_plan.frames);
+int TradeMeter::framesOfPoint(const TradePoint& point) const {
+    return static_cast<int>(m_source.viewNames().size()) *
+           (m_plan.warmup + (m_plan.pictures + m_plan.frames) * point.frames);
 }
 
 std::string TradeMeter::keyOf(const TradePoint& point) const {
     std::string text = m_source.identity() + "\nmodule " + m_session.moduleHash();
     text += formatText("\nsize %dx%d warmup %d frames %d pictures %d reference %d", point.size.width, point.size.height,
                        m_plan.warmup, m_plan.frames, m_plan.pictures, m_plan.referenceFrames);
+    if (point.frames > 1) text += formatText("\nmean of %d", point.frames);
     for (const auto& [name, value] : point.cvars)
         text += "\n" + name + " " + value;
     text += "\nreference";
@@ -136,6 +154,29 @@ TradeErrors TradeMeter::comparePicture(size_t view, const HostFrame& picture) co
             computeRelativeMse(reference, test)};
 }
 
+std::optional<HostFrame> TradeMeter::draw(const TradePoint& point, size_t view, bool capture, double& wallMs) {
+    wallMs = 0;
+    if (point.frames > 1) {
+        m_session.setCvar(kAccumulate, "0");
+        m_session.draw(view, false); // the mean begins anew
+        m_session.setCvar(kAccumulate, "1");
+    }
+    std::optional<HostFrame> picture;
+    for (int i = 1; i <= point.frames; ++i) {
+        DrawnFrame drawn = m_session.draw(view, capture && i == point.frames);
+        wallMs += drawn.wallMs;
+        picture = std::move(drawn.picture);
+    }
+    return picture;
+}
+
+HostFrame TradeMeter::drawPicture(const TradePoint& point) {
+    double wallMs = 0;
+    m_session.apply(point);
+    m_session.approach(0, m_plan.warmup);
+    return *draw(point, 0, true, wallMs);
+}
+
 TradeResult TradeMeter::measure(const TradePoint& point, const std::function<void(int)>& onFrames) {
     TradeResult result;
     result.key = keyOf(point);
@@ -147,23 +188,28 @@ TradeResult TradeMeter::measure(const TradePoint& point, const std::function<voi
     for (size_t view = 0; view < m_source.viewNames().size(); ++view) {
         m_session.approach(view, m_plan.warmup);
         pictureErrors.clear();
+        double ms = 0;
         for (int i = 0; i < m_plan.pictures; ++i)
-            pictureErrors.push_back(comparePicture(view, *m_session.draw(view, true).picture));
-        onFrames(m_plan.warmup + m_plan.pictures);
+            pictureErrors.push_back(comparePicture(view, *draw(point, view, true, ms)));
+        onFrames(m_plan.warmup + m_plan.pictures * point.frames);
         std::vector<double> viewMs;
         for (int i = 0; i < m_plan.frames; ++i) {
-            viewMs.push_back(m_session.draw(view, false).wallMs);
+            draw(point, view, false, ms);
+            viewMs.push_back(ms);
             figures.addFrame(m_session.stats());
         }
-        onFrames(m_plan.frames);
+        onFrames(m_plan.frames * point.frames);
         wallMs.insert(wallMs.end(), viewMs.begin(), viewMs.end());
+        result.views.push_back({m_source.viewNames()[view], computeQuantile(viewMs, 0.5), {}});
+        if (pictureErrors.empty()) continue;
         viewErrors.push_back(meanOf(pictureErrors));
-        result.views.push_back({m_source.viewNames()[view], computeQuantile(viewMs, 0.5), viewErrors.back()});
+        result.views.back().errors = viewErrors.back();
     }
     // Views are what the interval speaks of; of a single one, its pictures' noise.
     storeErrors(viewErrors.size() > 1 ? viewErrors : pictureErrors, result);
     result.wallMs = summarizeTrade(wallMs);
     result.passes = figures.passes();
+    result.groups = figures.groups();
     result.figures = figures.figures();
     result.frameCount = wallMs.size();
     result.device = m_session.device();

@@ -15,7 +15,7 @@ namespace q3rt {
 struct TradePlan {
     int warmup = 8;   ///< frames drawn before each view's measured ones
     int frames = 20;  ///< timed frames a view
-    int pictures = 1; ///< compared pictures a view
+    int pictures = 1; ///< compared pictures a view; 0: times alone, errors are infinite
     int referenceFrames = 1024;
     std::map<std::string, std::string> reference; ///< the reference's cvars, but for rt_accumulate
 };
@@ -28,11 +28,17 @@ class TradeMeter {
     std::string keyOf(const TradePoint& point) const;
     /// Makes or loads the references of this picture size. They stay in memory for one size at a time.
     void prepareReferences(const PictureSize& size);
-    /// References of the point's size must be prepared. `onFrames` hears how many frames more are drawn.
+    /// References of the point's size must be prepared, if pictures are compared. `onFrames` hears how many frames more
+    /// are drawn.
     TradeResult measure(const TradePoint& point, const std::function<void(int)>& onFrames);
-    int framesOfPoint() const;
+    int framesOfPoint(const TradePoint& point) const;
+    /// The picture of a point's first view, as it is compared.
+    HostFrame drawPicture(const TradePoint& point);
+    const MetricImage& reference(size_t view) const { return m_references[view]; }
 
   private:
+    /// One picture of the setting in force: the mean of the point's frames. `wallMs` gets the time of all.
+    std::optional<HostFrame> draw(const TradePoint& point, size_t view, bool capture, double& wallMs);
     HostFrame drawReference(size_t view, const std::function<void(int)>& onFrames);
     TradeErrors comparePicture(size_t view, const HostFrame& picture) const;
 

@@ -4,59 +4,24 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "host/svg.hpp"
 #include "host/trade_front.hpp"
 
 namespace q3rt {
 namespace {
 
+using namespace svg;
+
 // Pixels. The list of points stands right of the plot; a longer list makes a higher picture.
 constexpr double kPlotLeft = 84, kPlotRight = 640, kPlotTop = 60, kPlotHeight = 480, kBelowPlot = 70;
 constexpr double kListLeft = 672, kListLine = 18, kListTimeEnd = 1000, kListErrorEnd = 1064, kWidth = 1080;
-constexpr double kFontSize = 13, kDigitWidth = 8, kMarkRadius = 4.5, kCapLength = 4;
-constexpr const char *kFrontColor = "#c0392b", *kOtherColor = "#34618e", *kGridColor = "#dddddd", *kInk = "#222222";
+constexpr double kMarkRadius = 4.5;
+constexpr const char *kFrontColor = "#c0392b", *kOtherColor = "#34618e";
 
 struct Box {
     double x0, y0, x1, y1;
     bool overlaps(const Box& b) const { return x0 < b.x1 && b.x0 < x1 && y0 < b.y1 && b.y0 < y1; }
 };
-
-std::string escapeXml(const std::string& text) {
-    std::string escaped;
-    for (const char c : text) {
-        if (c == '&')
-            escaped += "&amp;";
-        else if (c == '<')
-            escaped += "&lt;";
-        else if (c == '>')
-            escaped += "&gt;";
-        else if (c == '"')
-            escaped += "&quot;";
-        else if (static_cast<unsigned char>(c) >= 0x20)
-            escaped += c;
-    }
-    return escaped;
-}
-
-std::string drawLine(double x0, double y0, double x1, double y1, const char* color, double width = 1) {
-    return formatText("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"%g\"/>\n", x0,
-                      y0, x1, y1, color, width);
-}
-
-enum class Align { Start, Middle, End };
-
-std::string drawText(double x, double y, const std::string& text, Align align = Align::Start, bool bold = false,
-                     const char* more = "") {
-    const char* anchor = align == Align::Start ? "start" : align == Align::Middle ? "middle" : "end";
-    return formatText("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\"%s%s>", x, y, anchor,
-                      bold ? " font-weight=\"bold\"" : "", more) +
-           escapeXml(text) + "</text>\n";
-}
-
-/// Three digits or more, never as a power of ten.
-std::string threeDigits(double value) {
-    const int before = value > 0 ? static_cast<int>(std::floor(std::log10(value))) + 1 : 1;
-    return formatText("%.*f", std::clamp(3 - before, 0, 9), value);
-}
 
 class Plot {
   public:
@@ -72,13 +37,9 @@ class Plot {
     std::string draw(const std::string& title) {
         const double listEnd = kPlotTop + kListLine * static_cast<double>(m_results.size() + 3);
         const double height = std::max(m_bottom + kBelowPlot, listEnd);
-        std::string svg =
-            formatText("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%g\" height=\"%g\" viewBox=\"0 0 %g %g\" "
-                       "font-family=\"sans-serif\" font-size=\"%g\" fill=\"%s\">\n",
-                       kWidth, height, kWidth, height, kFontSize, kInk);
-        svg += formatText("<rect width=\"%g\" height=\"%g\" fill=\"#ffffff\"/>\n", kWidth, height);
+        std::string svg = begin(kWidth, height);
         svg += drawText(kPlotLeft, 30, title, Align::Start, true);
-        return svg + drawAxes() + drawFront() + drawPoints() + drawNumbers() + drawList() + "</svg>\n";
+        return svg + drawAxes() + drawFront() + drawPoints() + drawNumbers() + drawList() + kEnd;
     }
 
   private:
@@ -120,8 +81,7 @@ class Plot {
         const double middle = 0.5 * (kPlotTop + m_bottom);
         svg += drawText(0.5 * (kPlotLeft + kPlotRight), m_bottom + 44, "frame time in ms (median; bars: quartiles)",
                         Align::Middle);
-        return svg + drawText(22, middle, "error: 1 - SSIM (mean over views; bars: 95 % confidence)", Align::Middle,
-                              false, formatText(" transform=\"rotate(-90 22 %.1f)\"", middle).c_str());
+        return svg + drawUprightText(22, middle, "error: 1 - SSIM (mean over views; bars: 95 % confidence)");
     }
     std::string drawFront() const {
         std::string points;
@@ -137,15 +97,11 @@ class Plot {
             const TradeResult& r = m_results[i];
             const char* color = isOnFront(i) ? kFrontColor : kOtherColor;
             const double x = xOf(i), y = yOf(i), q1 = m_x.position(r.wallMs.q1), q3 = m_x.position(r.wallMs.q3);
-            svg += drawLine(q1, y, q3, y, color);
-            for (const double end : {q1, q3})
-                svg += drawLine(end, y - kCapLength, end, y + kCapLength, color);
+            svg += drawBar(q1, y, q3, y, color);
             if (r.ssim.interval) {
                 const double best = m_y.position(1.0 - r.ssim.interval->second);
                 const double worst = m_y.position(1.0 - r.ssim.interval->first);
-                svg += drawLine(x, best, x, worst, color);
-                for (const double end : {best, worst})
-                    svg += drawLine(x - kCapLength, end, x + kCapLength, end, color);
+                svg += drawBar(x, best, x, worst, color);
             }
             svg += formatText("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%g\" fill=\"%s\"/>\n", x, y, kMarkRadius, color);
         }
@@ -203,58 +159,10 @@ class Plot {
     std::vector<TradeCost> m_costs;
     std::vector<size_t> m_front;
     double m_bottom;
-    PlotAxis m_x, m_y;
+    Axis m_x, m_y;
 };
 
 } // namespace
-
-PlotAxis::PlotAxis(std::span<const double> values, double start, double end)
-    : m_logarithmic(*std::min_element(values.begin(), values.end()) > 0)
-    , m_start(start)
-    , m_end(end) {
-    const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
-    // A twelfth of the range stays free on both sides, for numbers; a single value gets a range around it.
-    m_low = m_logarithmic ? std::log10(*lowest) : *lowest;
-    m_high = m_logarithmic ? std::log10(*highest) : *highest;
-    const double range = m_high - m_low;
-    const double margin = range > 0 ? range / 12 : m_logarithmic ? 0.5 : std::max(0.5 * std::abs(m_high), 0.5);
-    m_high += margin;
-    m_low -= margin;
-    m_logarithmic ? addLogarithmicTicks() : addLinearTicks();
-}
-
-double PlotAxis::scaled(double value) const {
-    if (!m_logarithmic) return value;
-    return value > 0 ? std::log10(value) : m_low;
-}
-
-double PlotAxis::position(double value) const {
-    const double share = (std::clamp(scaled(value), m_low, m_high) - m_low) / (m_high - m_low);
-    return m_start + share * (m_end - m_start);
-}
-
-void PlotAxis::addLogarithmicTicks() {
-    for (double decade = std::floor(m_low); decade <= m_high; ++decade)
-        for (const double step : {1.0, 2.0, 5.0}) {
-            const double tick = step * std::pow(10.0, decade);
-            if (std::log10(tick) >= m_low && std::log10(tick) <= m_high) m_ticks.push_back(tick);
-        }
-    if (m_ticks.size() >= 2) return;
-    // Less than a factor of 2.5 from end to end: even steps read better.
-    m_ticks.clear();
-    const double low = std::pow(10.0, m_low), high = std::pow(10.0, m_high);
-    const double step = std::pow(10.0, std::floor(std::log10(high - low)));
-    for (double tick = std::ceil(low / step) * step; tick <= high; tick += step)
-        m_ticks.push_back(tick);
-}
-
-void PlotAxis::addLinearTicks() {
-    const double decade = std::pow(10.0, std::floor(std::log10(m_high - m_low)));
-    const double count = (m_high - m_low) / decade; // in [1, 10)
-    const double step = decade * (count < 2 ? 0.2 : count < 5 ? 0.5 : 1.0);
-    for (double index = std::ceil(m_low / step); index * step <= m_high; ++index)
-        m_ticks.push_back(index * step + 0.0); // the sum turns -0 into 0
-}
 
 std::string drawTradePlot(const std::string& title, std::span<const TradeResult> results,
                           std::span<const std::string> labels) {

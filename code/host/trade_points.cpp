@@ -10,7 +10,7 @@
 namespace q3rt {
 namespace {
 
-constexpr const char* kSizeAxis = "size";
+constexpr const char *kSizeAxis = "size", *kFramesAxis = "frames";
 
 /// Values of the four standard settings.
 struct Choice {
@@ -42,6 +42,12 @@ void setSize(PictureSize& size, const std::string& text) {
         throw UsageError("--axis size: '" + text + "' is no picture size; write WIDTHxHEIGHT, such as 320x240");
 }
 
+void setFrames(int& frames, const std::string& text) {
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%d%c", &frames, &rest) != 1 || frames < 1)
+        throw UsageError("--axis frames: '" + text + "' is no number of frames; write 1 or more");
+}
+
 /// The value's words, for the settings that have some.
 std::string wordsOf(const std::string& name, const std::string& value) {
     const bool on = value != "0";
@@ -54,6 +60,8 @@ std::string wordsOf(const std::string& name, const std::string& value) {
 }
 
 } // namespace
+
+bool isPointAxis(const std::string& name) { return name == kSizeAxis || name == kFramesAxis; }
 
 TradeAxis parseAxis(const std::string& text) {
     const size_t equals = text.find('=');
@@ -99,6 +107,8 @@ std::vector<TradePoint> crossAxes(std::span<const TradeAxis> axes, const Picture
                 crossed.push_back(point);
                 if (axis.name == kSizeAxis)
                     setSize(crossed.back().size, value);
+                else if (axis.name == kFramesAxis)
+                    setFrames(crossed.back().frames, value);
                 else
                     crossed.back().cvars[axis.name] = value;
             }
@@ -141,6 +151,8 @@ std::string describePoint(const TradePoint& point, std::span<const TradePoint> a
         if (const auto found = point.cvars.find(name); found != point.cvars.end()) appendIfSwept(name, found->second);
     for (const auto& [name, value] : point.cvars)
         if (std::find(std::begin(kFirst), std::end(kFirst), name) == std::end(kFirst)) appendIfSwept(name, value);
+    if (differs([&](const TradePoint& other) { return other.frames == point.frames; }))
+        append(formatText("%d frame%s", point.frames, point.frames == 1 ? "" : "s"));
     const std::string size = formatText("%dx%d", point.size.width, point.size.height);
     if (differs([&](const TradePoint& other) {
             return other.size.width == point.size.width && other.size.height == point.size.height;

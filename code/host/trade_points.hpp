@@ -15,16 +15,21 @@ namespace q3rt {
 struct TradePoint {
     PictureSize size;
     std::map<std::string, std::string> cvars;
+    int frames = 1; ///< whose mean (rt_accumulate) is a picture: whole-pixel samples
     friend bool operator==(const TradePoint& a, const TradePoint& b) {
-        return a.size.width == b.size.width && a.size.height == b.size.height && a.cvars == b.cvars;
+        return a.size.width == b.size.width && a.size.height == b.size.height && a.cvars == b.cvars &&
+               a.frames == b.frames;
     }
 };
 
-/// One setting and the values to try; the name "size" stands for the picture's size, its values are WIDTHxHEIGHT.
+/// One setting and the values to try. "size" stands for the picture's size, its values are WIDTHxHEIGHT; "frames" for
+/// the number of frames whose mean is a picture.
 struct TradeAxis {
     std::string name;
     std::vector<std::string> values;
 };
+/// Is the axis no cvar?
+bool isPointAxis(const std::string& name);
 /// From CVAR=V1,V2,... Throws UsageError.
 TradeAxis parseAxis(const std::string& text);
 

@@ -32,6 +32,10 @@ TradeEstimate toEstimate(const Json& json) {
     return estimate;
 }
 
+Json toJson(const TradeTimes& t) { return {{"median", t.median}, {"q1", t.q1}, {"q3", t.q3}, {"p99", t.p99}}; }
+
+TradeTimes toTimes(const Json& json) { return {json.at("median"), json.at("q1"), json.at("q3"), json.at("p99")}; }
+
 Json toJson(const TradeResult::View& view) {
     return {{"view", view.name},
             {"wall_ms", view.medianMs},
@@ -70,17 +74,20 @@ TradeTimes summarizeTrade(std::span<const double> ms) {
 
 std::string toJsonLine(const TradeResult& result) {
     Json settings = {{"size", sizeText(result.point.size)}};
+    if (result.point.frames > 1) settings["frames"] = std::to_string(result.point.frames);
     for (const auto& [name, value] : result.point.cvars)
         settings[name] = value;
-    const TradeTimes& t = result.wallMs;
     Json line = {{"key", result.key},
                  {"settings", settings},
-                 {"wall_ms", {{"median", t.median}, {"q1", t.q1}, {"q3", t.q3}, {"p99", t.p99}}},
+                 {"wall_ms", toJson(result.wallMs)},
                  {"ssim", toJson(result.ssim)},
                  {"flip", toJson(result.flip)},
                  {"psnr", toJson(result.psnr)},
                  {"relmse", toJson(result.relmse)},
                  {"passes", result.passes}};
+    line["pass_groups"] = Json::object();
+    for (const auto& [name, times] : result.groups)
+        line["pass_groups"][name] = toJson(times);
     for (const auto& [name, value] : result.figures)
         line[name] = value;
     line["frames"] = result.frameCount;
@@ -107,9 +114,14 @@ std::optional<TradeResult> parseResult(const std::string& line) {
         result.backend = json.at("backend");
         result.point.size = {json.at("width"), json.at("height")};
         for (const auto& [name, value] : json.at("settings").items())
-            if (name != "size") result.point.cvars[name] = value;
-        const Json& wall = json.at("wall_ms");
-        result.wallMs = {wall.at("median"), wall.at("q1"), wall.at("q3"), wall.at("p99")};
+            if (name == "frames")
+                result.point.frames = std::stoi(value.get<std::string>());
+            else if (name != "size")
+                result.point.cvars[name] = value;
+        result.wallMs = toTimes(json.at("wall_ms"));
+        const Json groups = json.value("pass_groups", Json::object());
+        for (const auto& [name, times] : groups.items())
+            result.groups[name] = toTimes(times);
         result.ssim = toEstimate(json.at("ssim"));
         result.flip = toEstimate(json.at("flip"));
         result.psnr = toEstimate(json.at("psnr"));

@@ -37,8 +37,9 @@ struct TradeResult {
     TradePoint point;
     TradeTimes wallMs;
     TradeEstimate ssim, flip, psnr, relmse;
-    std::map<std::string, double> passes;  ///< median ms on the device, by pass
-    std::map<std::string, double> figures; ///< medians of the module's other numbers: gpu_ms, rays, lights ...
+    std::map<std::string, double> passes;     ///< median ms on the device, by pass
+    std::map<std::string, TradeTimes> groups; ///< ms on the device of all passes whose names begin with this word
+    std::map<std::string, double> figures;    ///< medians of the module's other numbers: gpu_ms, rays, lights ...
     struct View {
         std::string name;
         double medianMs = 0;

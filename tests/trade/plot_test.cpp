@@ -6,39 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include "host/svg.hpp"
 #include "host/trade_plot.hpp"
 #include "sample_results.hpp"
+#include "svg_faults.hpp"
 
 namespace q3rt::test {
 namespace {
-
-/// What is wrong with an XML text of elements, quoted attributes and character data; empty: nothing.
-std::string findXmlFault(const std::string& xml) {
-    static const std::regex kTag(R"(<(/?)([A-Za-z][\w:-]*)((?:\s+[A-Za-z][\w:-]*="[^"<]*")*)\s*(/?)>)");
-    static const std::regex kEntity("&(?:amp|lt|gt|quot);");
-    std::vector<std::string> open;
-    size_t at = 0, roots = 0;
-    while (at < xml.size()) {
-        const size_t tag = std::min(xml.find('<', at), xml.size());
-        const std::string text = std::regex_replace(xml.substr(at, tag - at), kEntity, "");
-        if (text.find_first_of("&>") != std::string::npos) return "bare character in '" + text + "'";
-        if (open.empty() && text.find_first_not_of(" \n") != std::string::npos) return "text outside the root";
-        if (tag == xml.size()) break;
-        std::smatch match;
-        const std::string rest = xml.substr(tag, 2000);
-        if (!std::regex_search(rest, match, kTag, std::regex_constants::match_continuous)) return "bad tag: " + rest;
-        if (std::regex_replace(match[3].str(), kEntity, "").find('&') != std::string::npos) return "bare & in a tag";
-        if (match[1].length() > 0) {
-            if (open.empty() || open.back() != match[2]) return "unexpected end of " + match[2].str();
-            open.pop_back();
-        } else {
-            if (open.empty() && ++roots > 1) return "two roots";
-            if (match[4].length() == 0) open.push_back(match[2]);
-        }
-        at = tag + static_cast<size_t>(match[0].length());
-    }
-    return open.empty() ? "" : "never ended: " + open.back();
-}
 
 /// Every number of an attribute.
 std::vector<double> findNumbers(const std::string& svg, const std::string& attribute) {
@@ -99,7 +73,7 @@ TEST(TradePlot, IsWellFormedAndInsideThePicture) {
 TEST(PlotAxis, TicksAreRoundAndInOrder) {
     for (const auto& values :
          {std::vector{1.0, 1000.0}, {4.0, 4.5}, {7.0}, {0.0, 1.0}, {0.0}, {1e-6, 0.5}, {0.9, 1.1}, {3.0, 4.0}}) {
-        const PlotAxis axis(values, 100, 500);
+        const svg::Axis axis(values, 100, 500);
         ASSERT_GE(axis.ticks().size(), 2u) << values.front();
         EXPECT_LE(axis.ticks().size(), 24u) << values.front();
         EXPECT_TRUE(std::is_sorted(axis.ticks().begin(), axis.ticks().end()));
@@ -108,10 +82,10 @@ TEST(PlotAxis, TicksAreRoundAndInOrder) {
             EXPECT_LE(axis.position(value), 500);
         }
     }
-    const PlotAxis logarithmic(std::vector{1.0, 100.0}, 0, 100);
+    const svg::Axis logarithmic(std::vector{1.0, 100.0}, 0, 100);
     EXPECT_TRUE(logarithmic.isLogarithmic());
     EXPECT_NEAR(logarithmic.position(10), 50, 1e-9);
-    EXPECT_FALSE(PlotAxis(std::vector{0.0, 1.0}, 0, 1).isLogarithmic());
+    EXPECT_FALSE(svg::Axis(std::vector{0.0, 1.0}, 0, 1).isLogarithmic());
 }
 
 } // namespace q3rt::test

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
-#include "support/run_program.hpp"
 #include "host/file_bytes.hpp"
 #include "sample_results.hpp"
+#include "support/run_program.hpp"
 
 namespace q3rt::test {
 namespace {

@@ -6,10 +6,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "support/run_program.hpp"
 #include "host/file_bytes.hpp"
-#include "host/still_scene.hpp"
-#include "trace/recording_writer.hpp"
+#include "support/run_program.hpp"
+#include "tiny_recording.hpp"
 
 namespace q3rt::test {
 namespace {
@@ -44,23 +43,6 @@ std::vector<std::string> sweepArguments(const fs::path& folder) {
             (folder / "sweep.jsonl").string(),
             "--svg",
             (folder / "sweep.svg").string()};
-}
-
-/// `frames` world frames of an eye that turns a degree a frame in the room.
-void recordRoom(const fs::path& path, int frames) {
-    RecordingWriter writer(path);
-    writer.setRenderer("made by a test");
-    writer.add(event::BeginRegistration{64, 48, 4.0f / 3});
-    writer.add(event::LoadWorld{"maps/room_square_light.bsp"});
-    writer.add(event::EndRegistration{});
-    for (int i = 0; i < frames; ++i) {
-        writer.add(event::Clock{100 + 20 * i});
-        writer.add(event::BeginFrame{0});
-        writer.add(event::ClearScene{});
-        writer.add(event::RenderScene{makeView({{0, 0, 64}, 0, static_cast<float>(i)}, 90, 64, 48, 100 + 20 * i)});
-        writer.add(event::EndFrame{});
-    }
-    writer.finish();
 }
 
 size_t countLines(const std::string& text) { return static_cast<size_t>(std::count(text.begin(), text.end(), '\n')); }
