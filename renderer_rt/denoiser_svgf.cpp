@@ -37,7 +37,7 @@ RtDenoise Svgf::describe(const ViewBuffers& view) const {
         table.filtered[i] = m_filtered[i].address();
     table.camera = motion.current().camera;
     table.previousCamera = motion.previous().camera;
-    const VkExtent2D size = view.area.extent, strata = strataOf(size);
+    const VkExtent2D size = view.extent, strata = strataOf(size);
     table.size = {size.width, size.height};
     table.strata = {strata.width, strata.height};
     table.frame = motion.current().sampleFrame;

@@ -8,19 +8,28 @@ void TraceRenderer::drawWorldView(FrameGraph& graph, FrameTargets& targets, cons
                                   const SceneView& scene) {
     const std::optional<VkRect2D> area = visibleArea(scene);
     if (!area || !m_scene->hasWorld()) return;
+    m_worldSeen = true;
     ViewBuffers& buffers = buffersOf(*area);
     const TracedView& view = prepareView(frame, scene, buffers);
-    const ViewWork work{*m_scene, *m_pipelines, context(), view, area->extent};
+    const ViewWork work{*m_scene, *m_pipelines, *m_pictures, context(), view, buffers.extent, *area};
     ViewResources resources = importView(graph, buffers);
+    beginReport(graph, resources);
 
+    if (m_settings.rt_compare == kCompareRaster)
+        raster().addView(graph, targets, frame, scene, drawListSettings(), "compare raster");
     if (view.top) addAcceleration(graph, resources, work);
     addPrimary(graph, resources, work);
     if (buffers.denoiser) buffers.denoiser->addBeforeDirect(graph, resources);
     addDirect(graph, resources, work);
     if (buffers.denoiser) buffers.denoiser->addAfterDirect(graph, resources);
-    addComposite(graph, resources, work);
-    if (buffers.taa) addTaa(graph, resources, *buffers.taa, m_taaPipeline, area->extent);
-    addOutput(graph, resources, targets, work, describeOutput(buffers, *area));
+    if (buffers.exposure) addExposureAdapt(graph, resources, work, m_exposureStep);
+    if (!m_settings.rt_accumulate) addComposite(graph, resources, work);
+    if (buffers.sums) addAccumulate(graph, resources, work);
+    if (buffers.exposure) addExposureCount(graph, resources, work);
+    if (buffers.taa) addTaa(graph, resources, work, *buffers.taa);
+    addOutput(graph, resources, targets, work, describeOutput(buffers, view));
+
+    m_reportBuffer = resources.report;
 }
 
 } // namespace q3rt

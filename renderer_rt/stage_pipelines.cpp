@@ -1,14 +1,9 @@
 #include "renderer_rt/stage_pipelines.hpp"
 
 #include "gpu/device.hpp"
-#include "renderer_vk/gpu_context.hpp"
-#include "shaders/shared/rt_output.h"
-#include "spirv/rt_composite_comp.hpp"
 #include "spirv/rt_direct_compute.hpp"
 #include "spirv/rt_direct_query.hpp"
 #include "spirv/rt_direct_rgen.hpp"
-#include "spirv/rt_output_frag.hpp"
-#include "spirv/rt_output_vert.hpp"
 #include "spirv/rt_primary_compute.hpp"
 #include "spirv/rt_primary_query.hpp"
 #include "spirv/rt_primary_rgen.hpp"
@@ -61,14 +56,6 @@ StagePipelines::StagePipelines(Device& device, Backend backend, VkDescriptorSetL
     }
     createTraceStage(device, TraceStage::Primary, interface);
     createTraceStage(device, TraceStage::Direct, interface);
-    m_composite = ComputePipeline(device, {"composite", {shaders::rt_composite_comp, {}}, interface});
-    GraphicsPipelineInfo output;
-    output.name = "output";
-    output.vertex = {shaders::rt_output_vert, {}};
-    output.fragment = {shaders::rt_output_frag, {}};
-    output.interface = {{}, sizeof(RtOutput)};
-    output.colorFormats = {kTargetFormat};
-    m_output = GraphicsPipeline(device, output);
 }
 
 void StagePipelines::createTraceStage(Device& device, TraceStage stage, const PipelineInterface& interface) {
@@ -114,11 +101,6 @@ void StagePipelines::dispatch(VkCommandBuffer commands, TraceStage stage, const 
     pipeline.dispatchOver(commands, input.extent);
 }
 
-void StagePipelines::dispatchComposite(VkCommandBuffer commands, const StageInput& input) const {
-    bindInput(commands, m_composite, input);
-    m_composite.dispatchOver(commands, input.extent);
-}
-
 void StagePipelines::warm(VkCommandBuffer commands, const StageInput& input) const {
     const VkMemoryBarrier2 order{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
                                  .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
@@ -130,8 +112,6 @@ void StagePipelines::warm(VkCommandBuffer commands, const StageInput& input) con
     dispatch(commands, TraceStage::Primary, input);
     vkCmdPipelineBarrier2KHR(commands, &dependency);
     dispatch(commands, TraceStage::Direct, input);
-    vkCmdPipelineBarrier2KHR(commands, &dependency);
-    dispatchComposite(commands, input);
 }
 
 const Access& StagePipelines::bufferRead() const {

@@ -7,7 +7,6 @@
 #include "frame/access.hpp"
 #include "gpu/compute_pipeline.hpp"
 #include "gpu/descriptors.hpp"
-#include "gpu/graphics_pipeline.hpp"
 #include "gpu/ray_tracing_pipeline.hpp"
 #include "renderer_rt/backend.hpp"
 #include "shaders/shared/rt_scene.h"
@@ -32,10 +31,8 @@ class StagePipelines {
     static uint64_t hashOfCode();
     StagePipelines(Device& device, Backend backend, VkDescriptorSetLayout textures);
     void dispatch(VkCommandBuffer commands, TraceStage stage, const StageInput& input) const;
-    void dispatchComposite(VkCommandBuffer commands, const StageInput& input) const;
     /// Runs every stage once, so that the driver compiles it now.
     void warm(VkCommandBuffer commands, const StageInput& input) const;
-    const GraphicsPipeline& output() const { return m_output; }
     const DescriptorLayout& structureLayout() const { return m_structureLayout; }
     Backend backend() const { return m_backend; }
     /// How the tracing stages touch buffers and structures.
@@ -51,8 +48,6 @@ class StagePipelines {
     DescriptorLayout m_structureLayout;
     std::array<RayTracingPipeline, kTraceStageCount> m_tracePipelines;
     std::array<ComputePipeline, kTraceStageCount> m_computeStages;
-    ComputePipeline m_composite;
-    GraphicsPipeline m_output;
 };
 
 } // namespace q3rt

@@ -58,7 +58,7 @@ void TraceRenderer::onGpuFrameEnd() {
 }
 
 void TraceRenderer::writeRadiance(const std::string& file) {
-    const VkExtent2D extent = m_lastBuffers->area.extent;
+    const VkExtent2D extent = m_lastBuffers->extent;
     const std::vector<std::byte> bytes = readBuffer(context().device(), m_lastBuffers->radiance);
     std::vector<float> rgb;
     rgb.reserve(size_t{3} * extent.width * extent.height);
@@ -76,7 +76,8 @@ void TraceRenderer::printStats() {
     if (now - m_lastPrintMs < kStatsIntervalMs) return;
     m_lastPrintMs = now;
     std::string line = formatText("rt: %s (%s), %u instances, %u moving triangles, %u samples;", backendName(),
-                                  m_backendReason.c_str(), m_instanceCount, m_movingTriangleCount, m_sampleNumber + 1);
+                                  m_backendReason.c_str(), m_instanceCount, m_movingTriangleCount,
+                                  m_lastBuffers && m_lastBuffers->sums ? m_lastBuffers->sums->sampleNumber + 1 : 1);
     for (const TimerRow& row : context().ring().timers().results())
         line += formatText(" %s %.2f ms", row.name.c_str(), row.ms);
     for (size_t i = 0; i < kStructureClassCount; ++i)
@@ -91,7 +92,7 @@ RunTime TraceRenderer::runStill(VkExtent2D extent, bool filters) {
     FrameCommands frame;
     const SceneView scene = stillOf(*world(), extent);
     m_views.clear();
-    ViewBuffers buffers(context().device(), {{0, 0}, extent});
+    ViewBuffers buffers(context().device(), {{0, 0}, extent}, extent);
     const TracedView& view = prepareView(frame, scene, buffers);
     DescriptorArena arena(context().device());
     const auto start = std::chrono::steady_clock::now();
@@ -107,16 +108,11 @@ RunTime TraceRenderer::runStill(VkExtent2D extent, bool filters) {
         input.extent = extent;
         m_pipelines->warm(commands, input);
         if (filters && buffers.denoiser) m_denoisePipelines->warm(commands);
-        if (filters && buffers.taa) {
-            m_taaPipeline.bind(commands);
-            m_taaPipeline.push(commands, RtTaaPush{});
-            m_taaPipeline.warmUp(commands);
-        }
+        if (filters) m_pictures->warm(commands);
     });
     const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
     const double processorMs = 1000.0 * static_cast<double>(std::clock() - processorStart) / CLOCKS_PER_SEC;
     m_views.clear();
-    m_lastViewKey.clear();
     m_frameNumber = 0;
     return {taken.count(), processorMs};
 }

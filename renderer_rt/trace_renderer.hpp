@@ -4,12 +4,16 @@
 #include <list>
 
 #include "base/measured_rounds.hpp"
-#include "renderer_rt/passes/denoise.hpp"
+#include "renderer_rt/denoise_pipelines.hpp"
+#include "renderer_rt/frame_report.hpp"
 #include "renderer_rt/passes/taa.hpp"
 #include "renderer_rt/trace_settings.hpp"
 #include "renderer_vk/gpu_renderer.hpp"
 
 namespace q3rt {
+
+/// Values of rt_compare.
+inline constexpr int kCompareRaster = 1, kCompareAccumulated = 2;
 
 class TraceRenderer final : public GpuRenderer {
   public:
@@ -27,25 +31,35 @@ class TraceRenderer final : public GpuRenderer {
     void onGpuContentDropped() override;
     void onGpuFrameBegin(const FrameCommands& frame) override;
     void onGpuFrameEnd() override;
+    void addFrameEnd(FrameGraph& graph, FrameTargets& targets, bool captured) override;
     std::string extraStats() const override;
 
     const TracedView& prepareView(const FrameCommands& frame, const SceneView& scene, ViewBuffers& buffers);
+    /// What the mean of plain samples and automatic exposure need.
+    void preparePicture(const FrameCommands& frame, const SceneView& scene, ViewBuffers& buffers, RtFrame& out);
     /// Turns the view's histories and makes the tables of the denoiser and of temporal anti-aliasing, if they are on.
     void prepareHistory(const FrameCommands& frame, const SceneView& scene, ViewBuffers& buffers, RtFrame& out);
-    void describeView(const SceneView& scene, VkExtent2D extent, RtFrame& out) const;
+    void advanceMotion(const FrameCommands& frame, const SceneView& scene, ViewBuffers& buffers, RtFrame& out);
+    void describeView(const SceneView& scene, const ViewBuffers& buffers, RtFrame& out) const;
     void describeSettings(RtFrame& out) const;
-    /// Number of this sample in the mean of an unchanged view; 0 starts a new mean.
-    uint32_t countSample(const FrameCommands& frame, const SceneView& scene);
+    bool accumulates() const;
     /// All that a view's picture depends on: equal keys, equal expected pictures.
     std::vector<uint32_t> viewKey(const FrameCommands& frame, const SceneView& scene) const;
     /// What changes the light of a view that stays the same.
     std::vector<uint32_t> settingsKey() const;
+    /// rt_scale of what is shown.
+    VkExtent2D tracedExtent(VkExtent2D shown) const;
     /// Buffers of a view there that this picture doesn't use yet.
     ViewBuffers& buffersOf(const VkRect2D& area);
     void dropUnusedBuffers();
     /// The part of the view's rectangle that lies on the target.
     std::optional<VkRect2D> visibleArea(const SceneView& scene);
-    RtOutput describeOutput(const ViewBuffers& buffers, const VkRect2D& area) const;
+    OutputWork describeOutput(const ViewBuffers& buffers, const TracedView& view) const;
+    /// Lets the view's passes count, if anyone wants to know in this frame.
+    void beginReport(FrameGraph& graph, ViewResources& resources);
+    /// rt_pause and rt_accumulate stop the game.
+    void followPause();
+    void pauseGame(bool paused);
     void addScreenshotCommand();
     void removeScreenshotCommand();
     void warmPipelines() { runStill({8, 8}, true); }
@@ -61,8 +75,8 @@ class TraceRenderer final : public GpuRenderer {
 
     TraceSettings m_settings;
     std::unique_ptr<StagePipelines> m_pipelines;
-    std::unique_ptr<DenoisePipelines> m_denoisePipelines; ///< made when the denoiser is first wanted
-    ComputePipeline m_taaPipeline;                        ///< made when anti-aliasing is first wanted
+    std::unique_ptr<PicturePipelines> m_pictures;
+    std::unique_ptr<DenoisePipelines> m_denoisePipelines; ///< made when a denoiser is first wanted
     std::unique_ptr<TracedScene> m_scene;
     std::list<ViewBuffers> m_buffers; ///< addresses stay
     std::list<TracedView> m_views;    ///< of this frame; passes refer to them
@@ -73,9 +87,13 @@ class TraceRenderer final : public GpuRenderer {
     std::string m_backendReason;
     uint32_t m_pictureNumber = 0; ///< of drawn frames since registration ended
     uint32_t m_frameNumber = 0;   ///< of traced views since the map was loaded
-    uint32_t m_sampleNumber = 0;
-    std::vector<uint32_t> m_lastViewKey; ///< of the view that the mean belongs to
-    std::string m_radianceFile;          ///< asked for by screenshotHDR
+    std::unique_ptr<FrameReport> m_report;
+    BufferId m_reportBuffer;            ///< of this frame's graph, from the first view that has a report on
+    std::optional<FiniteCheck> m_check; ///< rt_checkFinite
+    ExposureStep m_exposureStep;        ///< of the view being prepared
+    bool m_worldSeen = false;           ///< in the last frame
+    bool m_paused = false;              ///< by us
+    std::string m_radianceFile;         ///< asked for by screenshotHDR
     int m_lastPrintMs = 0;
     uint32_t m_movingTriangleCount = 0, m_instanceCount = 0;
     ClassCounts m_classCounts{}; ///< of the last traced view

@@ -22,26 +22,34 @@ GuideBuffers::GuideBuffers(Device& device, VkExtent2D extent)
     , previousGuides(makeViewBuffer(device, extent, sizeof(RtGuide), "previous guides"))
     , pasts(makeViewBuffer(device, extent, sizeof(RtPast), "pasts")) {}
 
-ViewBuffers::ViewBuffers(Device& device, const VkRect2D& viewArea)
+ViewBuffers::ViewBuffers(Device& device, const VkRect2D& viewArea, VkExtent2D tracedExtent)
     : area(viewArea)
-    , pixels(makeViewBuffer(device, viewArea.extent, sizeof(RtPixel), "pixels"))
-    , irradiance(makeViewBuffer(device, viewArea.extent, sizeof(vec4), "irradiance"))
-    , ambient(makeViewBuffer(device, viewArea.extent, sizeof(vec4), "ambient"))
-    , radiance(makeViewBuffer(device, viewArea.extent, sizeof(vec4), "radiance"))
-    , means(makeViewBuffer(device, viewArea.extent, sizeof(RtMean), "means"))
-    , picture(makeViewBuffer(device, viewArea.extent, sizeof(vec4), "picture")) {}
+    , extent(tracedExtent)
+    , pixels(makeViewBuffer(device, extent, sizeof(RtPixel), "pixels"))
+    , irradiance(makeViewBuffer(device, extent, sizeof(vec4), "irradiance"))
+    , ambient(makeViewBuffer(device, extent, sizeof(vec4), "ambient"))
+    , radiance(makeViewBuffer(device, extent, sizeof(vec4), "radiance"))
+    , picture(makeViewBuffer(device, extent, sizeof(vec4), "picture")) {}
 
 TaaBuffers::TaaBuffers(Device& device, VkExtent2D extent)
     : history(makeViewBuffer(device, extent, sizeof(vec4), "taa history"))
     , previousHistory(makeViewBuffer(device, extent, sizeof(vec4), "taa previous history")) {}
 
+SumBuffers::SumBuffers(Device& device, VkExtent2D extent)
+    : sums(makeViewBuffer(device, extent, sizeof(RtSums), "sums"))
+    , reference(makeViewBuffer(device, extent, sizeof(vec4), "reference")) {}
+
+void SumBuffers::count(std::vector<uint32_t> key) {
+    sampleNumber = key == viewKey ? sampleNumber + 1 : 0;
+    viewKey = std::move(key);
+}
+
 void ViewBuffers::turnHistory(Device& device, const DenoisePipelines* pipelines, DenoiserKind denoised,
                               bool antialiased) {
-    const VkExtent2D extent = area.extent;
     const bool otherDenoiser = denoised != denoiserKind(), otherTaa = antialiased != (taa != nullptr);
     if (otherDenoiser || otherTaa) motion = ViewMotion();
     if (otherDenoiser) denoiser = makeDenoiser(denoised, device, pipelines, extent);
-    if (otherTaa) taa = antialiased ? std::make_unique<TaaBuffers>(device, extent) : nullptr;
+    if (otherTaa) taa = antialiased ? std::make_unique<TaaBuffers>(device, area.extent) : nullptr;
     const bool guided = denoiser || taa;
     if (guided != (guides != nullptr)) guides = guided ? std::make_unique<GuideBuffers>(device, extent) : nullptr;
     if (guides) std::swap(guides->guides, guides->previousGuides);
@@ -49,7 +57,15 @@ void ViewBuffers::turnHistory(Device& device, const DenoisePipelines* pipelines,
     if (denoiser) denoiser->turn(*this);
 }
 
-RtTaa describeTaa(const ViewBuffers& buffers) {
+void ViewBuffers::turnPicture(Device& device, bool accumulated, bool autoExposed) {
+    if (accumulated != (sums != nullptr)) sums = accumulated ? std::make_unique<SumBuffers>(device, extent) : nullptr;
+    if (autoExposed == (exposure != nullptr)) return;
+    exposure = autoExposed ? std::make_unique<Buffer>(makeViewBuffer(device, {1, 1}, sizeof(RtExposure), "exposure"))
+                           : nullptr;
+    exposureTimeMs.reset();
+}
+
+RtTaa describeTaa(const ViewBuffers& buffers, const RtFrame& frame, bool usesHistory) {
     RtTaa table{};
     table.guides = buffers.guides->guides.address();
     table.pasts = buffers.guides->pasts.address();
@@ -58,10 +74,13 @@ RtTaa describeTaa(const ViewBuffers& buffers) {
     table.previousHistory = buffers.taa->previousHistory.address();
     table.camera = buffers.motion.current().camera;
     table.previousCamera = buffers.motion.previous().camera;
-    table.size = {buffers.area.extent.width, buffers.area.extent.height};
-    const VkExtent2D strata = strataOf(buffers.area.extent);
+    table.size = {buffers.extent.width, buffers.extent.height};
+    table.outputSize = {buffers.area.extent.width, buffers.area.extent.height};
+    const VkExtent2D strata = strataOf(buffers.extent);
     table.strata = {strata.width, strata.height};
-    table.hasHistory = buffers.motion.isContinuous() ? 1 : 0;
+    table.jitter = frame.jitter;
+    table.autoExposure = frame.autoExposure;
+    table.hasHistory = usesHistory && buffers.motion.isContinuous() ? 1 : 0;
     const Buffer* gradients = buffers.denoiser ? buffers.denoiser->gradients() : nullptr;
     if (gradients && buffers.motion.isContinuous()) table.gradients = gradients->address();
     return table;

@@ -3,11 +3,14 @@
 // denoiser and of temporal anti-aliasing if they are on.
 
 #include <memory>
+#include <optional>
 
 #include "gpu/buffer.hpp"
 #include "renderer_rt/denoiser.hpp"
 #include "renderer_rt/view_motion.hpp"
 #include "shaders/shared/rt_denoise.h"
+#include "shaders/shared/rt_exposure.h"
+#include "shaders/shared/rt_sums.h"
 #include "shaders/shared/rt_taa.h"
 
 namespace q3rt {
@@ -31,23 +34,39 @@ struct TaaBuffers {
     TaaBuffers(Device& device, VkExtent2D extent);
 };
 
+/// The mean of plain samples.
+struct SumBuffers {
+    Buffer sums;                   ///< RtSums[]
+    Buffer reference;              ///< vec4[]: what is shown of the mean
+    uint32_t sampleNumber = 0;     ///< of this frame's sample; 0 starts a new mean
+    std::vector<uint32_t> viewKey; ///< of the view that the mean belongs to; empty: of none
+    SumBuffers(Device& device, VkExtent2D extent);
+    /// This frame's sample belongs to a view of this key.
+    void count(std::vector<uint32_t> key);
+};
+
 struct ViewBuffers {
-    VkRect2D area{}; ///< on the target
-    Buffer pixels, irradiance, ambient, radiance, means, picture;
+    VkRect2D area{};     ///< on the target
+    VkExtent2D extent{}; ///< of what is traced, pixels
+    Buffer pixels, irradiance, ambient, radiance, picture;
     ViewMotion motion;
     std::unique_ptr<GuideBuffers> guides; ///< null: there is no history of any kind
     std::unique_ptr<Denoiser> denoiser;   ///< null: none
-    std::unique_ptr<TaaBuffers> taa;      ///< null: no temporal anti-aliasing
+    std::unique_ptr<TaaBuffers> taa;      ///< null: no temporal anti-aliasing and no scaling
+    std::unique_ptr<SumBuffers> sums;     ///< null: nothing is accumulated
+    std::unique_ptr<Buffer> exposure;     ///< RtExposure; null: it is not automatic
+    std::optional<int> exposureTimeMs;    ///< of the view's clock when it was last adapted; nothing: it is new
     uint32_t lastPicture = 0;             ///< number of the last drawn frame that used it
-    ViewBuffers(Device& device, const VkRect2D& viewArea);
+    ViewBuffers(Device& device, const VkRect2D& viewArea, VkExtent2D tracedExtent);
     /// Makes or drops what is kept from frame to frame; what the last frame left becomes its history.
     /// `pipelines` may be null if nothing is denoised.
     void turnHistory(Device& device, const DenoisePipelines* pipelines, DenoiserKind denoised, bool antialiased);
     DenoiserKind denoiserKind() const { return denoiser ? denoiser->kind() : DenoiserKind::None; }
-    /// What the output curve is put on.
-    const Buffer& shown() const { return taa ? taa->history : picture; }
+    /// Makes or drops what accumulation and automatic exposure need.
+    void turnPicture(Device& device, bool accumulated, bool autoExposed);
 };
 
-RtTaa describeTaa(const ViewBuffers& buffers);
+/// `usesHistory`: not if the view is only scaled.
+RtTaa describeTaa(const ViewBuffers& buffers, const RtFrame& frame, bool usesHistory);
 
 } // namespace q3rt

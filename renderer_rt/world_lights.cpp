@@ -55,20 +55,18 @@ std::vector<RtNode> makeNodes(const World& world) {
     return nodes;
 }
 
-/// Luxel units of a grid value: the grid is shifted so that 255 shows a texture at its own brightness.
-constexpr float kLuxelOfGridValue = kWhiteIrradiance / 255.0f;
-
 std::vector<RtGridCell> makeGrid(const World& world) {
     std::vector<RtGridCell> cells;
     const LightGrid& grid = world.grid;
+    const float luxelOfGridValue = std::exp2(static_cast<float>(-world.overbrightShift));
     for (int z = 0; z < grid.counts.z; ++z)
         for (int y = 0; y < grid.counts.y; ++y)
             for (int x = 0; x < grid.counts.x; ++x) {
                 const vec3 point = grid.origin + grid.cellSize * vec3(x, y, z);
                 const GridLight light = grid.sample(point);
                 RtGridCell cell{};
-                cell.ambient = light.ambient * kLuxelOfGridValue;
-                cell.directed = light.directed * kLuxelOfGridValue;
+                cell.ambient = light.ambient * luxelOfGridValue;
+                cell.directed = light.directed * luxelOfGridValue;
                 cell.direction = light.direction;
                 cell.valid = light.ambient != vec3(0.0f) ? 1 : 0;
                 cells.push_back(cell);

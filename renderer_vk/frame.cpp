@@ -30,6 +30,7 @@ void GpuRenderer::drawFrame(const FrameCommands& frame, FrameImage* capture) {
         m_raster->addUi(graph, targets, commands.subspan(i, end - i), frame.clockMs);
         i = end;
     }
+    addFrameEnd(graph, targets, capture != nullptr);
     m_context->addPresent(graph, targets.color);
 
     m_raster->uploadFrame();

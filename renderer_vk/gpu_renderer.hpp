@@ -34,6 +34,8 @@ class GpuRenderer : public FrontEnd {
     virtual void onGpuContentDropped() {}
     /// Start of a frame, before any view: the command buffer is open, textures are up to date.
     virtual void onGpuFrameBegin(const FrameCommands&) {}
+    /// After all views and 2D, before the window: the last passes. `captured`: the picture is kept by somebody.
+    virtual void addFrameEnd(FrameGraph&, FrameTargets&, bool /*captured*/) {}
     /// The frame was submitted.
     virtual void onGpuFrameEnd() {}
     /// More members of q3rt_stats, as JSON text beginning with a comma, or empty.

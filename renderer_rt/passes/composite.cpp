@@ -1,4 +1,5 @@
-#include "renderer_rt/passes/trace_input.hpp"
+#include "renderer_rt/passes/check.hpp"
+#include "renderer_rt/passes/passes.hpp"
 
 namespace q3rt {
 
@@ -9,11 +10,15 @@ void addComposite(FrameGraph& graph, ViewResources& resources, const ViewWork& w
             pass.read(resources.pixels, access::kComputeRead);
             pass.read(resources.lighting, access::kComputeRead);
             pass.read(resources.ambient, access::kComputeRead);
+            if (resources.exposure) pass.read(resources.exposure, access::kComputeRead);
             resources.radiance = pass.write(resources.radiance, access::kComputeWrite);
-            resources.means = pass.write(resources.means, access::kComputeWrite);
             resources.picture = pass.write(resources.picture, access::kComputeWrite);
         },
-        [work](PassContext& pass) { work.pipelines.dispatchComposite(pass.commands(), makeStageInput(pass, work)); });
+        [work](PassContext& pass) {
+            work.pictures.dispatch(pass.commands(), PictureStage::Composite, RtPush{work.view.frameSlice.address},
+                                   work.extent);
+        });
+    checkFinite(graph, resources, "composite", resources.picture, kColorItem, work.extent);
 }
 
 } // namespace q3rt

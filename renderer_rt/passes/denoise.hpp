@@ -25,25 +25,23 @@ struct DenoiseWork {
 };
 
 /// "denoise clear", "denoise project": samples of the last frame find their pixels in this one.
-void addDenoiseProject(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
-                       const DenoiseWork& work);
+void addDenoiseProject(FrameGraph& graph, ViewResources& resources, DenoiseResources& denoise, const DenoiseWork& work);
 /// "denoise carry": these pixels show the samples' surface points.
 void addDenoiseCarry(FrameGraph& graph, ViewResources& resources, const DenoiseResources& denoise,
                      const DenoiseWork& work);
 /// "denoise gradient": by how much their light has changed.
-void addDenoiseGradient(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
+void addDenoiseGradient(FrameGraph& graph, ViewResources& resources, DenoiseResources& denoise,
                         const DenoiseWork& work);
 /// "denoise gradient filter".
-void addDenoiseGradientFilter(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
+void addDenoiseGradientFilter(FrameGraph& graph, ViewResources& resources, DenoiseResources& denoise,
                               const DenoiseWork& work);
 /// "denoise temporal".
-void addDenoiseTemporal(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
+void addDenoiseTemporal(FrameGraph& graph, ViewResources& resources, DenoiseResources& denoise,
                         const DenoiseWork& work);
 /// "denoise variance".
-void addDenoiseVariance(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
+void addDenoiseVariance(FrameGraph& graph, ViewResources& resources, DenoiseResources& denoise,
                         const DenoiseWork& work);
 /// "denoise filter".
-void addDenoiseFilter(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
-                      const DenoiseWork& work);
+void addDenoiseFilter(FrameGraph& graph, ViewResources& resources, DenoiseResources& denoise, const DenoiseWork& work);
 
 } // namespace q3rt

@@ -1,8 +1,10 @@
 #include "renderer_rt/passes/denoise.hpp"
 
+#include "renderer_rt/passes/check.hpp"
+
 namespace q3rt {
 
-void addDenoiseVariance(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
+void addDenoiseVariance(FrameGraph& graph, ViewResources& resources, DenoiseResources& denoise,
                         const DenoiseWork& work) {
     graph.addPass(
         "denoise variance",
@@ -15,11 +17,11 @@ void addDenoiseVariance(FrameGraph& graph, const ViewResources& resources, Denoi
         [work](PassContext& pass) {
             work.pipelines.dispatch(pass.commands(), DenoiseStage::Variance, {.denoise = work.table}, work.extent);
         });
+    checkFinite(graph, resources, "denoise variance", denoise.filtered[0], kColorItem, work.extent);
 }
 
-void addDenoiseFilter(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
-                      const DenoiseWork& work) {
-    for (uint32_t level = 0; level < kFilterLevels; ++level)
+void addDenoiseFilter(FrameGraph& graph, ViewResources& resources, DenoiseResources& denoise, const DenoiseWork& work) {
+    for (uint32_t level = 0; level < kFilterLevels; ++level) {
         graph.addPass(
             "denoise filter",
             [&](PassBuilder& pass) {
@@ -32,6 +34,8 @@ void addDenoiseFilter(FrameGraph& graph, const ViewResources& resources, Denoise
                 work.pipelines.dispatch(pass.commands(), DenoiseStage::Filter, {.denoise = work.table, .level = level},
                                         work.extent);
             });
+        checkFinite(graph, resources, "denoise filter", denoise.filtered[(level + 1) & 1], kColorItem, work.extent);
+    }
 }
 
 } // namespace q3rt

@@ -1,8 +1,10 @@
 #include "renderer_rt/passes/denoise.hpp"
 
+#include "renderer_rt/passes/check.hpp"
+
 namespace q3rt {
 
-void addDenoiseGradient(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
+void addDenoiseGradient(FrameGraph& graph, ViewResources& resources, DenoiseResources& denoise,
                         const DenoiseWork& work) {
     graph.addPass(
         "denoise gradient",
@@ -16,11 +18,12 @@ void addDenoiseGradient(FrameGraph& graph, const ViewResources& resources, Denoi
             work.pipelines.dispatch(pass.commands(), DenoiseStage::Gradient, {.denoise = work.table},
                                     strataOf(work.extent));
         });
+    checkFinite(graph, resources, "denoise gradient", denoise.gradients[0], kPairItem, strataOf(work.extent));
 }
 
-void addDenoiseGradientFilter(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
+void addDenoiseGradientFilter(FrameGraph& graph, ViewResources& resources, DenoiseResources& denoise,
                               const DenoiseWork& work) {
-    for (uint32_t level = 0; level < kGradientLevels; ++level)
+    for (uint32_t level = 0; level < kGradientLevels; ++level) {
         graph.addPass(
             "denoise gradient filter",
             [&](PassBuilder& pass) {
@@ -33,6 +36,9 @@ void addDenoiseGradientFilter(FrameGraph& graph, const ViewResources& resources,
                 work.pipelines.dispatch(pass.commands(), DenoiseStage::GradientFilter,
                                         {.denoise = work.table, .level = level}, strataOf(work.extent));
             });
+        checkFinite(graph, resources, "denoise gradient filter", denoise.gradients[(level + 1) & 1], kPairItem,
+                    strataOf(work.extent));
+    }
 }
 
 } // namespace q3rt

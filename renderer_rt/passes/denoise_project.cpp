@@ -1,8 +1,10 @@
 #include "renderer_rt/passes/denoise.hpp"
 
+#include "renderer_rt/passes/check.hpp"
+
 namespace q3rt {
 
-void addDenoiseProject(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
+void addDenoiseProject(FrameGraph& graph, ViewResources& resources, DenoiseResources& denoise,
                        const DenoiseWork& work) {
     graph.addPass(
         "denoise clear",
@@ -40,6 +42,9 @@ void addDenoiseCarry(FrameGraph& graph, ViewResources& resources, const DenoiseR
             work.pipelines.dispatch(pass.commands(), DenoiseStage::Carry, {.denoise = work.table},
                                     strataOf(work.extent));
         });
+    checkFinite(graph, resources, "denoise carry", resources.pixels, kPixelItem, work.extent);
+    checkFinite(graph, resources, "denoise carry", resources.guides, kGuideItem, work.extent);
+    checkFinite(graph, resources, "denoise carry", resources.pasts, kPastItem, work.extent);
 }
 
 } // namespace q3rt

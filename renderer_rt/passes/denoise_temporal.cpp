@@ -1,8 +1,10 @@
 #include "renderer_rt/passes/denoise.hpp"
 
+#include "renderer_rt/passes/check.hpp"
+
 namespace q3rt {
 
-void addDenoiseTemporal(FrameGraph& graph, const ViewResources& resources, DenoiseResources& denoise,
+void addDenoiseTemporal(FrameGraph& graph, ViewResources& resources, DenoiseResources& denoise,
                         const DenoiseWork& work) {
     graph.addPass(
         "denoise temporal",
@@ -22,6 +24,8 @@ void addDenoiseTemporal(FrameGraph& graph, const ViewResources& resources, Denoi
         [work](PassContext& pass) {
             work.pipelines.dispatch(pass.commands(), DenoiseStage::Temporal, {.denoise = work.table}, work.extent);
         });
+    checkFinite(graph, resources, "denoise temporal", denoise.light, kColorItem, work.extent);
+    checkFinite(graph, resources, "denoise temporal", denoise.moments, kPairItem, work.extent);
 }
 
 } // namespace q3rt

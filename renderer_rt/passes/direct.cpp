@@ -1,3 +1,4 @@
+#include "renderer_rt/passes/check.hpp"
 #include "renderer_rt/passes/trace_input.hpp"
 
 namespace q3rt {
@@ -15,6 +16,8 @@ void addDirect(FrameGraph& graph, ViewResources& resources, const ViewWork& work
         [work](PassContext& pass) {
             work.pipelines.dispatch(pass.commands(), TraceStage::Direct, makeStageInput(pass, work));
         });
+    checkFinite(graph, resources, "direct", resources.irradiance, kColorItem, work.extent);
+    checkFinite(graph, resources, "direct", resources.ambient, kColorItem, work.extent);
 }
 
 } // namespace q3rt

@@ -9,8 +9,12 @@ ViewResources importView(FrameGraph& graph, ViewBuffers& buffers) {
     resources.irradiance = graph.importBuffer("irradiance", buffers.irradiance);
     resources.ambient = graph.importBuffer("ambient", buffers.ambient);
     resources.radiance = graph.importBuffer("radiance", buffers.radiance);
-    resources.means = graph.importBuffer("means", buffers.means);
     resources.picture = graph.importBuffer("picture", buffers.picture);
+    if (buffers.sums) {
+        resources.sums = graph.importBuffer("sums", buffers.sums->sums);
+        resources.reference = graph.importBuffer("reference", buffers.sums->reference);
+    }
+    if (buffers.exposure) resources.exposure = graph.importBuffer("exposure", *buffers.exposure);
     if (buffers.guides) {
         resources.guides = graph.importBuffer("guides", buffers.guides->guides);
         resources.previousGuides = graph.importBuffer("previous guides", buffers.guides->previousGuides);

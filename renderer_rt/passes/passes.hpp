@@ -1,6 +1,7 @@
 #pragma once
 // The passes of a traced view, one function each. Each takes the frame's resources and replaces what it writes.
 
+#include "renderer_rt/picture_pipelines.hpp"
 #include "renderer_rt/stage_pipelines.hpp"
 #include "renderer_rt/traced_scene.hpp"
 #include "renderer_rt/view_buffers.hpp"
@@ -9,28 +10,42 @@
 
 namespace q3rt {
 
+class FrameReport;
+
+/// What rt_checkFinite needs. Lives as long as the frame's graph.
+struct FiniteCheck {
+    FrameReport& report;
+    const PicturePipelines& pictures;
+};
+
 /// The graph's handles of one view, in their newest versions.
 struct ViewResources {
-    BufferId structures;             ///< a token: orders builds and traces
-    BufferId pixels;                 ///< RtPixel[]
-    BufferId guides, previousGuides; ///< RtGuide[], if there is a history
-    BufferId pasts;                  ///< RtPast[], likewise
-    BufferId irradiance;             ///< vec4[]: direct light
-    BufferId ambient;                ///< vec4[]
-    BufferId lighting;               ///< vec4[]: irradiance, or what the denoiser made of it
-    BufferId gradients;              ///< vec2[], a stratum: change of light, if the denoiser knows it
-    BufferId radiance;               ///< vec4[]: running mean, kept between frames
-    BufferId means;                  ///< RtMean[], kept between frames
-    BufferId picture;                ///< vec4[]: exposed
+    BufferId structures;                ///< a token: orders builds and traces
+    BufferId pixels;                    ///< RtPixel[]
+    BufferId guides, previousGuides;    ///< RtGuide[], if there is a history
+    BufferId pasts;                     ///< RtPast[], likewise
+    BufferId irradiance;                ///< vec4[]: direct light
+    BufferId ambient;                   ///< vec4[]
+    BufferId lighting;                  ///< vec4[]: irradiance, or what the denoiser made of it
+    BufferId gradients;                 ///< vec2[], a stratum: change of light, if the denoiser knows it
+    BufferId radiance;                  ///< vec4[]
+    BufferId picture;                   ///< vec4[]: exposed
+    BufferId sums;                      ///< RtSums[], if plain samples are accumulated
+    BufferId reference;                 ///< vec4[]: their mean, exposed
+    BufferId exposure;                  ///< RtExposure, if it is automatic
+    BufferId report;                    ///< RtReport, if something is counted
+    const FiniteCheck* check = nullptr; ///< null: buffers are not searched for what is no number
 };
 
 /// What the passes of one view share while they record.
 struct ViewWork {
     TracedScene& scene;
     const StagePipelines& pipelines;
+    const PicturePipelines& pictures;
     GpuContext& context;
     const TracedView& view; ///< lives until the graph has run
-    VkExtent2D extent{};
+    VkExtent2D extent{};    ///< traced pixels
+    VkRect2D area{};        ///< on the target
 };
 
 /// "acceleration": structures of what moves, then the top level.
@@ -40,10 +55,25 @@ ViewResources importView(FrameGraph& graph, ViewBuffers& buffers);
 void addPrimary(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
 /// "direct": shadow rays to irradiance.
 void addDirect(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
-/// "composite": A x L + B into the running mean.
+struct ExposureStep {
+    bool first = false;  ///< nothing is known of the view yet
+    float mostStops = 0; ///< that the exposure may change by
+};
+/// "exposure adapt": the exposure of this frame, from the last one's histogram.
+void addExposureAdapt(FrameGraph& graph, ViewResources& resources, const ViewWork& work, const ExposureStep& step);
+/// "composite": A x L + B, exposed.
 void addComposite(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
-/// "output": the mean through the output curve onto the view's rectangle of the target.
+/// "exposure count": the histogram of the radiance.
+void addExposureCount(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
+/// "accumulate": the plain sample into the sums, their mean into radiance and reference; "accumulate error" if there is
+/// a report.
+void addAccumulate(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
+struct OutputWork {
+    RtOutput push{};
+    VkRect2D drawn{}; ///< of the target
+};
+/// "output": the picture through the output curve onto its rectangle of the target.
 void addOutput(FrameGraph& graph, ViewResources& resources, FrameTargets& targets, const ViewWork& work,
-               const RtOutput& output);
+               const OutputWork& output);
 
 } // namespace q3rt

@@ -1,3 +1,4 @@
+#include "renderer_rt/passes/check.hpp"
 #include "renderer_rt/passes/trace_input.hpp"
 
 namespace q3rt {
@@ -15,6 +16,10 @@ void addPrimary(FrameGraph& graph, ViewResources& resources, const ViewWork& wor
         [work](PassContext& pass) {
             work.pipelines.dispatch(pass.commands(), TraceStage::Primary, makeStageInput(pass, work));
         });
+    checkFinite(graph, resources, "primary", resources.pixels, kPixelItem, work.extent);
+    if (!resources.guides) return;
+    checkFinite(graph, resources, "primary", resources.guides, kGuideItem, work.extent);
+    checkFinite(graph, resources, "primary", resources.pasts, kPastItem, work.extent);
 }
 
 } // namespace q3rt

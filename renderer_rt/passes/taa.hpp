@@ -7,7 +7,6 @@
 namespace q3rt {
 
 /// resources.picture becomes the averaged picture.
-void addTaa(FrameGraph& graph, ViewResources& resources, TaaBuffers& buffers, const ComputePipeline& pipeline,
-            VkExtent2D extent);
+void addTaa(FrameGraph& graph, ViewResources& resources, const ViewWork& work, TaaBuffers& buffers);
 
 } // namespace q3rt

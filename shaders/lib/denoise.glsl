@@ -3,6 +3,7 @@
 // Dachsbacher 2018, "Gradient Estimation for Real-Time Adaptive Temporal Filtering" (A-SVGF), section 4.
 #ifndef Q3RT_LIB_DENOISE_GLSL
 #define Q3RT_LIB_DENOISE_GLSL
+#include "lib/color.glsl"
 #include "shared/constants.h"
 
 // Unit normals in 32 bits (octahedral map: Cigolle et al. 2014, "A Survey of Efficient Representations for Independent
@@ -35,9 +36,6 @@ uint packWinner(uint fromStratum, uint fromPixel, uint toPixel)
 uint winnerStratum(uint winner) { return winner >> 8u; }
 uint winnerFromPixel(uint winner) { return winner >> 4u & 15u; }
 uint winnerToPixel(uint winner) { return winner & 15u; }
-
-// Rec. 709 weights, as of display values; only their being positive and of sum 1 matters.
-float luminanceOf(vec3 color) { return dot(color, vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 // Normals of one surface in neighbouring pixels: within 25 degrees.
 const float kSameNormalCosine = 0.9f;

@@ -1,4 +1,4 @@
-// Composite and accumulation of one pixel.
+// Composite of one pixel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "rt/extensions.glsl"
@@ -8,6 +8,11 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 void main()
 {
-    if (all(lessThan(gl_GlobalInvocationID.xy, rtFrame.size)))
-        compositePixel(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(gl_GlobalInvocationID.xy, rtFrame.size)))
+        return;
+    uint index = pixelIndex(gl_GlobalInvocationID.xy);
+    Composed composed = composePixel(index, rtFrame.lighting);
+    if ((rtFrame.flags & kFrameKeepRadiance) != 0u)
+        ColorTable(rtFrame.radiance).at[index] = vec4(composed.radiance, 1.0);
+    ColorTable(rtFrame.picture).at[index] = vec4(exposePicture(composed), 1.0);
 }

@@ -1,41 +1,48 @@
-// Composite and accumulation: radiance = A x L + B; the means of all samples of an unchanged view, in 32-bit float; and
-// the picture made of them. The engine clamps baked light to what shows a texture at its own brightness before it
-// multiplies; the same clamp is put on the mean light here, so that bright places keep their texture.
+// Composite: radiance = A x L + B, and the picture made of it. The engine clamps baked light to what shows a texture at
+// its own brightness before it multiplies; the same clamp is put on the exposed light here, so that bright places keep
+// their texture. The visibility floor is a floor of that light too: it lifts what is lit, and no glow.
 #ifndef Q3RT_RT_COMPOSITE_GLSL
 #define Q3RT_RT_COMPOSITE_GLSL
 #include "lib/tonemap.glsl"
 #include "rt/scene.glsl"
+#include "shared/rt_exposure.h"
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer MeanTable { RtMean at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ExposureTable { RtExposure value; };
 
-// Running mean: m += (x - m) / n keeps its relative error below n u.
-vec3 addToMean(vec3 mean, vec3 value) { return mean + (value - mean) / float(rtFrame.sampleNumber + 1u); }
+struct Composed {
+    vec3 albedo;
+    vec3 lit; // A x L
+    vec3 radiance;
+};
 
-vec3 exposePicture(vec3 radiance, RtMean mean)
+// `lighting`: vec4[], direct light.
+Composed composePixel(uint index, uvec2 lighting)
 {
-    if ((rtFrame.flags & kFrameClampLight) == 0u)
-        return rtFrame.exposure * radiance;
-    vec3 light = rtFrame.exposure * vec3(mean.albedo.x > 0.0 ? mean.lit.x / mean.albedo.x : 0.0,
-                                         mean.albedo.y > 0.0 ? mean.lit.y / mean.albedo.y : 0.0,
-                                         mean.albedo.z > 0.0 ? mean.lit.z / mean.albedo.z : 0.0);
-    return mean.albedo * clampKeepingHue(light) + rtFrame.exposure * (radiance - mean.lit);
+    RtPixel pixel = PixelTable(rtFrame.pixels).at[index];
+    vec3 light = ColorTable(lighting).at[index].rgb + ColorTable(rtFrame.ambientL).at[index].rgb;
+    // What is no number must not get into a mean.
+    if (any(isnan(light)) || any(isinf(light)))
+        light = vec3(0.0);
+    vec3 lit = pixel.albedo * (light * rtFrame.lightScale);
+    return Composed(pixel.albedo, lit, lit + pixel.emission);
 }
 
-void compositePixel(uvec2 pixelPosition)
+float exposureFactor()
 {
-    uint index = pixelIndex(pixelPosition);
-    RtPixel pixel = PixelTable(rtFrame.pixels).at[index];
-    vec3 light = ColorTable(rtFrame.lighting).at[index].rgb + ColorTable(rtFrame.ambientL).at[index].rgb;
-    RtMean mean = RtMean(pixel.albedo, pixel.albedo * light);
-    vec3 radiance = mean.lit + pixel.emission;
-    if (rtFrame.sampleNumber > 0u) {
-        RtMean before = MeanTable(rtFrame.means).at[index];
-        mean = RtMean(addToMean(before.albedo, mean.albedo), addToMean(before.lit, mean.lit));
-        radiance = addToMean(ColorTable(rtFrame.radiance).at[index].rgb, radiance);
-    }
-    MeanTable(rtFrame.means).at[index] = mean;
-    ColorTable(rtFrame.radiance).at[index] = vec4(radiance, 1.0);
-    ColorTable(rtFrame.picture).at[index] = vec4(exposePicture(radiance, mean), 1.0);
+    float stops = rtFrame.autoExposure != uvec2(0u) ? ExposureTable(rtFrame.autoExposure).value.stops : 0.0;
+    return rtFrame.exposure * exp2(stops);
+}
+
+vec3 exposePicture(Composed composed)
+{
+    float exposure = exposureFactor();
+    vec3 a = composed.albedo;
+    vec3 light = exposure * vec3(a.x > 0.0 ? composed.lit.x / a.x : 0.0, a.y > 0.0 ? composed.lit.y / a.y : 0.0,
+                                 a.z > 0.0 ? composed.lit.z / a.z : 0.0);
+    light = max(light, vec3(rtFrame.leastLight));
+    if ((rtFrame.flags & kFrameClampLight) != 0u)
+        light = clampKeepingHue(light);
+    return a * light + exposure * (composed.radiance - composed.lit);
 }
 
 #endif

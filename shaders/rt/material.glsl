@@ -2,6 +2,7 @@
 // footprint of the ray.
 #ifndef Q3RT_RT_MATERIAL_GLSL
 #define Q3RT_RT_MATERIAL_GLSL
+#include "lib/color.glsl"
 #include "lib/material_affine.glsl"
 #include "rt/surface.glsl"
 
@@ -10,6 +11,10 @@ struct MaterialColor {
     vec3 glow;    // B
     vec3 through; // P
 };
+
+// Colours of the content are display values; in linear light they are decoded first.
+vec3 shadingColor(vec3 color) { return (rtFrame.flags & kFrameLinear) != 0u ? linearFromSrgb(color) : color; }
+vec4 shadingColor(vec4 color) { return vec4(shadingColor(color.rgb), color.a); }
 
 // Stages are read where they are needed: a copy of one would hold its eight tcMods, few of which exist.
 #define stageAt(stage) StageTable(rtFrame.stages).at[stage]
@@ -109,11 +114,11 @@ AffineColor addStages(AffineColor color, uint first, uint count, VertexIn vertex
         StageState stage = loadStage(first + i);
         if (reflects && stageAt(first + i).unit[0].coord == kCoordEnvironment)
             continue;
-        vec4 texel0 = sampleFiltered(first + i, 0u, vertex, vertexX, vertexY, entity.eye);
+        vec4 texel0 = shadingColor(sampleFiltered(first + i, 0u, vertex, vertexX, vertexY, entity.eye));
         vec4 texel1 = stage.combine != kCombineSingle
-                          ? sampleFiltered(first + i, 1u, vertex, vertexX, vertexY, entity.eye)
+                          ? shadingColor(sampleFiltered(first + i, 1u, vertex, vertexX, vertexY, entity.eye))
                           : vec4(1.0);
-        vec4 generated = fadeColorInFog(stageColor(stage, vertex, entity), stage.fogFade, density);
+        vec4 generated = shadingColor(fadeColorInFog(stageColor(stage, vertex, entity), stage.fogFade, density));
         color = addStage(color, stage, generated, texel0, texel1);
     }
     return color;
@@ -152,7 +157,7 @@ MaterialColor shadeSurface(SurfacePoint point, vec3 eye, vec3 forward)
     MaterialColor result = MaterialColor(color.lit, color.unlit, color.through);
     if (density > 0.0 && (point.surface.flags & kSurfaceFogged) != 0u) {
         result.albedo *= 1.0 - density;
-        result.glow = result.glow * (1.0 - density) + fog.color * density;
+        result.glow = result.glow * (1.0 - density) + shadingColor(fog.color) * density;
         result.through *= 1.0 - density;
     }
     return result;

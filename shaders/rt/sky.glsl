@@ -56,7 +56,7 @@ vec3 skyColor(RtSky sky, vec3 direction, vec3 directionX, vec3 directionY)
         SkyFace faceX = findSkyFace(directionX), faceY = findSkyFace(directionY);
         vec2 stX = faceX.side == face.side ? faceX.st - face.st : vec2(0.0);
         vec2 stY = faceY.side == face.side ? faceY.st - face.st : vec2(0.0);
-        color = textureGrad(textures[nonuniformEXT(sky.box[face.side])], face.st, stX, stY).rgb;
+        color = shadingColor(textureGrad(textures[nonuniformEXT(sky.box[face.side])], face.st, stX, stY).rgb);
     }
     if (sky.stageCount == 0u || face.side == kSkyFaceBelow)
         return color;

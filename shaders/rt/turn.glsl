@@ -26,8 +26,9 @@ CameraRay makeCameraRay(vec2 at)
     CameraRay ray;
     ray.origin = rtFrame.eye;
     ray.direction = cameraDirection(rtFrame.forward, rtFrame.left, rtFrame.up, at / size);
-    ray.directionX = cameraDirection(rtFrame.forward, rtFrame.left, rtFrame.up, (at + vec2(1.0, 0.0)) / size);
-    ray.directionY = cameraDirection(rtFrame.forward, rtFrame.left, rtFrame.up, (at + vec2(0.0, 1.0)) / size);
+    vec2 right = vec2(rtFrame.footprint, 0.0), down = vec2(0.0, rtFrame.footprint);
+    ray.directionX = cameraDirection(rtFrame.forward, rtFrame.left, rtFrame.up, (at + right) / size);
+    ray.directionY = cameraDirection(rtFrame.forward, rtFrame.left, rtFrame.up, (at + down) / size);
     ray.forward = rtFrame.forward;
     ray.from = 0.0;
     ray.solidMask = kMaskSolid;

@@ -1,19 +1,20 @@
-// Push constants of the output pass.
+// The output curve, and what the output pass draws.
 #ifndef Q3RT_SHARED_RT_OUTPUT_H
 #define Q3RT_SHARED_RT_OUTPUT_H
 #include "rt_scene.h"
 SHARED_BEGIN
 
-SHARED_CONST kCurveClamp = 0u;  // the engine's own clamp, hue kept
-SHARED_CONST kCurveFilmic = 1u; // shoulder; `white` maps to 1
+SHARED_CONST kCurveClamp = 0u; // the engine's own clamp, hue kept
+SHARED_CONST kCurveFilmic = 1u;
+SHARED_CONST kCurveReinhard = 2u;
 
 struct RtOutput {
+    SHARED_ADDRESS frame;   // RtFrame
     SHARED_ADDRESS picture; // vec4[], rows of `width`
-    SHARED_UVEC2 corner;     // of the view on the target, pixels
+    SHARED_ADDRESS right;   // the same: shown from column `split` on
+    SHARED_UVEC2 corner;    // of the view on the target, pixels
     uint width;
-    uint curve;
-    float white; // radiance
-    uint reserved;
+    uint split;
 };
 
 SHARED_END

@@ -170,12 +170,8 @@ SHARED_CONST kFrameAntialiasing = 0x40u;
 SHARED_CONST kFrameSharedJitter = 0x80u; // all rays at RtFrame::jitter of their pixels
 SHARED_CONST kFrameClampLight = 0x100u;  // the picture shows light as the engine shows a lightmap: at most 1, hue kept
 SHARED_CONST kFrameHistory = 0x200u;     // guides and pasts are wanted
-
-// Means over all samples so far, for a picture that clamps light and not its product with a texture.
-struct RtMean {
-    vec3 albedo;
-    vec3 lit; // A x L
-};
+SHARED_CONST kFrameKeepRadiance = 0x400u; // the composite's radiance is wanted
+SHARED_CONST kFrameLinear = 0x800u;       // colours are decoded to light
 
 struct RtFrame {
     SHARED_ADDRESS instances;
@@ -200,9 +196,12 @@ struct RtFrame {
     SHARED_ADDRESS irradiance; // vec4[]: traced L (1.0 = irradiance 63.75), one a pixel
     SHARED_ADDRESS ambientL;   // vec4[]: L of the light grid, without noise
     SHARED_ADDRESS lighting;   // vec4[]: traced L that the picture shows: `irradiance`, or what a denoiser made of it
-    SHARED_ADDRESS radiance;   // vec4[]: mean radiance of all samples so far, one a pixel
-    SHARED_ADDRESS means;      // RtMean[]
-    SHARED_ADDRESS picture;    // vec4[]: what is shown of the means, exposed
+    SHARED_ADDRESS radiance;   // vec4[], one a pixel: of the frame, or the mean of all samples so far
+    SHARED_ADDRESS picture;    // vec4[]: what is shown of it, exposed
+    SHARED_ADDRESS sums;       // RtSums[]: of plain samples
+    SHARED_ADDRESS reference;  // vec4[]: what is shown of their means, exposed
+    SHARED_ADDRESS autoExposure; // RtExposure; 0: there is none
+    SHARED_ADDRESS report;       // RtReport
     vec3 eye;
     uint flags; // kFrame*
     vec3 forward;
@@ -229,8 +228,14 @@ struct RtFrame {
     vec3 forwardUnit;
     vec3 previousEye;
     vec2 jitter; // in a pixel, [0, 1)
-    float exposure; // factor
+    float footprint; // what texture detail is chosen for, pixels: less than 1 where the result has more pixels
+    float exposure;  // factor, rt_exposure
+    float lightScale; // factor of L, r_mapOverBrightBits
+    float leastLight; // rt_minLight: L is shown as at least this
+    uint curve;       // kCurve*
+    float curveWhite; // radiance that the curve shows as full white
     float inverseError; // of the back end's transform of rays into instances, see lib/offset.glsl
+    uint reserved;
 };
 
 struct RtPush {

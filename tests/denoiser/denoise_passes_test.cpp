@@ -173,5 +173,16 @@ TEST_F(DenoisePassesTest, ACutLeavesNothingBehind) {
     EXPECT_EQ(a.shown, b.shown);
 }
 
+TEST_F(DenoisePassesTest, CountsWhatIsNoNumber) {
+    const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+    std::vector<RtGuide> guides(kRigPixelCount);
+    for (RtGuide& guide : guides)
+        guide.normal = 0x7fc00000u; // packed, not a number
+    guides[7].position.x = nan;
+    guides[11].position = {infinity, 1, -infinity};
+    DenoiseRig rig(device());
+    EXPECT_EQ(rig.countNonFinite(guides), 3u);
+}
+
 } // namespace
 } // namespace q3rt

@@ -4,6 +4,8 @@
 
 #include "frame/frame_graph.hpp"
 #include "gpu/readback.hpp"
+#include "renderer_rt/frame_report.hpp"
+#include "renderer_rt/passes/check.hpp"
 #include "shader_text.hpp"
 
 namespace q3rt::test {
@@ -31,7 +33,7 @@ DenoiseRig::DenoiseRig(Device& device, DenoiserKind kind)
                         .domain = MemoryDomain::Upload,
                         .name = "rig tables"})
     , m_pipelines(device)
-    , m_buffers(device, {{0, 0}, kRigExtent}) {}
+    , m_buffers(device, {{0, 0}, kRigExtent}, kRigExtent) {}
 
 RtFrame DenoiseRig::describeCamera(const vec3& eye) const {
     RtFrame out{};
@@ -128,6 +130,25 @@ RigFrame DenoiseRig::draw(const vec3& eye, const LightFunction& light) {
     for (const vec4& shown : readItems<vec4>(m_device, m_buffers.denoiser->lighting()))
         out.shown.emplace_back(shown);
     return out;
+}
+
+uint64_t DenoiseRig::countNonFinite(const std::vector<RtGuide>& guides) {
+    m_buffers.turnHistory(m_device, &m_pipelines, m_kind, false);
+    m_uploader.upload(m_buffers.guides->guides, std::span<const RtGuide>(guides));
+    m_uploader.flush();
+    const PicturePipelines pictures(m_device);
+    FrameReport report(m_device, m_ring.framesInFlight());
+    const FiniteCheck check{report, pictures};
+    run([&](FrameGraph& graph) {
+        report.beginFrame(m_ring.slot());
+        ViewResources resources = importView(graph, m_buffers);
+        resources.report = report.addClear(graph);
+        resources.check = &check;
+        checkFinite(graph, resources, "guides", resources.guides, kGuideItem, kRigExtent);
+        report.addCopy(graph, resources.report);
+    });
+    report.beginFrame(m_ring.slot());
+    return report.latest().counts.at(0).nonFinite;
 }
 
 double meanLuminance(const RigFrame& frame, const std::vector<vec3>& light) {

@@ -31,6 +31,8 @@ class DenoiseRig {
     explicit DenoiseRig(Device& device, DenoiserKind kind = DenoiserKind::Asvgf);
     /// Draws one frame from `eye`, looking along x and down a little.
     RigFrame draw(const vec3& eye, const LightFunction& light);
+    /// What rt_checkFinite counts in these.
+    uint64_t countNonFinite(const std::vector<RtGuide>& guides);
     /// Leaves out one frame's number: the next one starts anew.
     void cut() { ++m_number; }
 

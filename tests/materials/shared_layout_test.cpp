@@ -15,9 +15,12 @@
 #include "shared/constants.h"
 #include "shared/raster.h"
 #include "shared/rt_denoise.h"
+#include "shared/rt_exposure.h"
 #include "shared/rt_motion.h"
 #include "shared/rt_output.h"
+#include "shared/rt_report.h"
 #include "shared/rt_scene.h"
+#include "shared/rt_sums.h"
 #include "shared/rt_taa.h"
 #include "shared/stage.h"
 #include "shared/vertex.h"
@@ -32,10 +35,10 @@ constexpr bool areTriviallyCopyable() {
 }
 
 TEST(SharedLayout, StructuresCanBeCopiedToTheDevice) {
-    EXPECT_TRUE(
-        (areTriviallyCopyable<Vertex, StageState, BvhNode, BvhTriangle, BvhInstance, RasterEntity, RasterLight,
-                              RasterFog, RasterDraw, RtInstance, RtSurface, RtEntity, RtTriangleLight, RtLight, RtNode,
-                              RtFog, RtPixel, RtFrame, RtMotion, RtGuide, RtPast, RtDenoise, RtTaa, RtOutput>()));
+    EXPECT_TRUE((areTriviallyCopyable<Vertex, StageState, BvhNode, BvhTriangle, BvhInstance, RasterEntity, RasterLight,
+                                      RasterFog, RasterDraw, RtInstance, RtSurface, RtEntity, RtTriangleLight, RtLight,
+                                      RtNode, RtFog, RtPixel, RtFrame, RtMotion, RtGuide, RtPast, RtDenoise, RtTaa,
+                                      RtOutput, RtSums, RtReport, RtExposure>()));
     EXPECT_EQ(alignof(vec2), 4u);
     EXPECT_EQ(alignof(vec3), 4u);
     EXPECT_EQ(alignof(vec4), 4u);

@@ -165,13 +165,5 @@ TEST(Random, CountsAndMeansOfTheHash) {
     }
 }
 
-TEST(Tonemap, ClampKeepsHue) {
-    EXPECT_EQ(shader::clampKeepingHue(vec3(0.5f, 0.25f, 1.0f)), vec3(0.5f, 0.25f, 1.0f));
-    EXPECT_EQ(shader::clampKeepingHue(vec3(2.0f, 1.0f, 0.5f)), vec3(1.0f, 0.5f, 0.25f));
-    const vec3 mapped = shader::reinhardKeepingHue(vec3(4.0f, 2.0f, 0.0f), 4);
-    EXPECT_NEAR(mapped.x, 1, 1e-6);
-    EXPECT_NEAR(mapped.y, 0.5, 1e-6);
-}
-
 } // namespace
 } // namespace q3rt

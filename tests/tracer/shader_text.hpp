@@ -20,7 +20,6 @@ using uint = uint32_t;
 #include "lib/offset.glsl"
 #include "lib/random.glsl"
 #include "lib/ray.glsl"
-#include "lib/tonemap.glsl"
 
 } // namespace
 } // namespace q3rt::shader
