@@ -17,6 +17,7 @@ void addCompareCommand(CLI::App& app, int& exitCode);
 void addTradeCommand(CLI::App& app, int& exitCode);
 void addInfoCommand(CLI::App& app, int& exitCode);
 void addDoctorCommand(CLI::App& app, int& exitCode);
+void addRelightCommand(CLI::App& app, int& exitCode);
 void addSubsetCommand(CLI::App& app, int& exitCode);
 
 } // namespace q3rt

@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
     q3rt::addCompareCommand(app, exitCode);
     q3rt::addTradeCommand(app, exitCode);
     q3rt::addInfoCommand(app, exitCode);
+    q3rt::addRelightCommand(app, exitCode);
     q3rt::addSubsetCommand(app, exitCode);
     try {
         app.parse(argc, argv);

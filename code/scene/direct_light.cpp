@@ -67,59 +67,19 @@ double triangleFormFactor(const vec3& point, const vec3& normal, const vec3 corn
 }
 
 DirectLightTracer::DirectLightTracer(const World& world, const MaterialLibrary& materials, const LightSet& lights)
-    : m_world(world)
-    , m_materials(materials)
-    , m_lights(lights)
+    : m_lights(lights)
+    , m_occluders(world, materials)
     , m_skyOfSurface(world.surfaces.size(), -1) {
     for (size_t i = 0; i < lights.skies.size(); ++i)
         if (lights.skies[i].surface >= 0)
             m_skyOfSurface[static_cast<size_t>(lights.skies[i].surface)] = static_cast<int>(i);
-    std::vector<vec3> positions;
-    std::vector<uint8_t> opaque;
-    const BspModel& model = world.bsp.models[0];
-    for (int s = model.firstSurface; s < model.firstSurface + model.surfaceCount; ++s) {
-        const WorldSurface& surface = world.surfaces[static_cast<size_t>(s)];
-        const Material& material = materials.get(surface.material);
-        const bool translucent = material.contentFlags & surfaceParm::kContentsTranslucent;
-        if (!surface.drawn || (translucent && !material.light.alphaShadow)) continue;
-        for (uint32_t i = 0; i + 2 < surface.indexCount; i += 3) {
-            for (uint32_t corner = 0; corner < 3; ++corner)
-                positions.push_back(world.vertices[world.indices[surface.firstIndex + i + corner]].position);
-            m_occluders.push_back({static_cast<uint32_t>(s), surface.firstIndex + i});
-            opaque.push_back(material.light.alphaShadow ? 0 : 1);
-        }
-    }
-    m_tracer = std::make_unique<CpuTracer>(positions, opaque);
-    m_tracer->accept = [this](uint32_t triangle, const vec2& at) { return !letsLightPass(triangle, at); };
-    const Bounds& bounds = m_tracer->bvh().bounds;
-    m_farQu = bounds.empty() ? 1 : 2 * glm::length(bounds.maxs - bounds.mins);
-}
-
-bool DirectLightTracer::letsLightPass(uint32_t triangle, const vec2& barycentric) const {
-    const Occluder& occluder = m_occluders[triangle];
-    const Material& material = m_materials.get(m_world.surfaces[occluder.surface].material);
-    if (material.stages.empty() || material.stages[0].unit[0].frames.empty()) return false;
-    const auto vertex = [&](uint32_t i) -> const Vertex& {
-        return m_world.vertices[m_world.indices[occluder.firstIndex + i]];
-    };
-    const vec2 st = (1 - barycentric.x - barycentric.y) * vertex(0).st + barycentric.x * vertex(1).st +
-                    barycentric.y * vertex(2).st;
-    const Texture& texture = m_materials.textures().get(material.stages[0].unit[0].frames[0]);
-    const MipLevel& level = texture.levels[0];
-    const auto texel = [](float coordinate, int size) {
-        const float wrapped = coordinate - std::floor(coordinate);
-        return std::min(static_cast<int>(wrapped * static_cast<float>(size)), size - 1);
-    };
-    const auto at = static_cast<size_t>(texel(st.y, level.height) * level.width + texel(st.x, level.width));
-    return level.rgba[4 * at + 3] < 128;
 }
 
 bool DirectLightTracer::reachesSky(const vec3& origin, const vec3& direction, int& sky) const {
-    CpuHit hit;
-    if (!m_tracer->closest(origin, direction, 0, m_farQu, hit)) return false;
-    const uint32_t surface = m_occluders[hit.triangle].surface;
-    sky = m_skyOfSurface[surface];
-    return m_materials.get(m_world.surfaces[surface].material).isSky;
+    OccluderHit hit;
+    if (!m_occluders.closest(origin, direction, m_occluders.farQu(), hit)) return false;
+    sky = m_skyOfSurface[hit.surface];
+    return m_occluders.isSky(hit.surface);
 }
 
 vec3 DirectLightTracer::surfaceLight(const vec3& origin, const vec3& normal, int rays, std::mt19937& random) const {
@@ -142,7 +102,7 @@ vec3 DirectLightTracer::surfaceLight(const vec3& origin, const vec3& normal, int
             const double weight = cosines / (squared * squared);
             all += weight;
             // One part in a thousand short of the emitter, which is an occluder itself.
-            if (!m_tracer->occluded(origin, to, 0.999f)) lit += weight;
+            if (!m_occluders.occluded(origin, to, 0.999f)) lit += weight;
         }
         if (all > 0) sum += light.radiance * (kPi * static_cast<float>(factor * lit / all));
     }
@@ -179,8 +139,9 @@ vec3 DirectLightTracer::pointLight(const vec3& origin, const vec3& normal) const
         const vec3 to = light.origin - origin;
         const float distance = std::max(glm::length(to), kMinPointDistanceQu);
         const float cosine = glm::dot(to, normal) / std::max(glm::length(to), std::numeric_limits<float>::min());
-        if (cosine <= 0 || (light.spot && -glm::dot(to, light.direction) < light.cosOuter * glm::length(to))) continue;
-        if (!m_tracer->occluded(origin, to, 1)) sum += light.intensity * (cosine / (distance * distance));
+        const float share = light.spot ? spotShare(-to, light.direction, light.tangent()) : 1;
+        if (cosine <= 0 || share <= 0) continue;
+        if (!m_occluders.occluded(origin, to, 1)) sum += light.intensity * (share * cosine / (distance * distance));
     }
     return sum;
 }

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "accel/cpu_tracer.hpp"
+#include "scene/light_occluders.hpp"
 #include "scene/lights.hpp"
 
 namespace q3rt {
@@ -27,7 +27,6 @@ double triangleFormFactor(const vec3& point, const vec3& normal, const vec3 corn
 
 class DirectLightTracer {
   public:
-    /// Occluders: the drawn surfaces of the world model but translucent ones; alpha-shadowed ones by their texture.
     DirectLightTracer(const World& world, const MaterialLibrary& materials, const LightSet& lights);
 
     /// `origin` lies off the surface already. Unbiased over the generator's draws.
@@ -35,19 +34,10 @@ class DirectLightTracer {
                    std::mt19937& random) const;
 
   private:
-    struct Occluder {
-        uint32_t surface;
-        uint32_t firstIndex; ///< of its triangle in World::indices
-    };
-    const World& m_world;
-    const MaterialLibrary& m_materials;
     const LightSet& m_lights;
-    std::vector<Occluder> m_occluders;
+    LightOccluders m_occluders;
     std::vector<int> m_skyOfSurface; ///< index in LightSet::skies, -1 none; by surface
-    std::unique_ptr<CpuTracer> m_tracer;
-    float m_farQu = 0; ///< longer than any line inside the map
 
-    bool letsLightPass(uint32_t triangle, const vec2& barycentric) const;
     bool reachesSky(const vec3& origin, const vec3& direction, int& sky) const;
     vec3 surfaceLight(const vec3& origin, const vec3& normal, int rays, std::mt19937& random) const;
     vec3 sunLight(const vec3& origin, const vec3& normal, std::mt19937& random) const;

@@ -2,6 +2,8 @@
 // Lights by rule, never by texture name. Units: luxel units (spec of baked light): irradiance 63.75 shows a texture at
 // its own brightness; a surface light V is a Lambertian emitter of radiosity 0.75 V, radiance 0.75 V / pi.
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "scene/world.hpp"
@@ -41,7 +43,19 @@ struct PointLight {
     bool spot = false;
     vec3 direction{0};
     float cosOuter = -1;
+    /// Of the angle between a spot light's axis and its border.
+    float tangent() const { return std::sqrt(std::max(0.0f, 1 - cosOuter * cosOuter)) / cosOuter; }
 };
+
+/// Width of the border of a spot light's circle, over which it fades inward, qu (spec of baked light).
+inline constexpr float kSpotBorderQu = 32;
+
+/// Share of a spot light's intensity that goes to a point; `tangent` of the angle from its axis to its border.
+inline float spotShare(const vec3& fromLight, const vec3& axis, float tangent) {
+    const float along = glm::dot(fromLight, axis);
+    if (!(along > 0)) return 0;
+    return glm::clamp((tangent * along - glm::length(fromLight - along * axis)) / kSpotBorderQu, 0.0f, 1.0f);
+}
 
 struct LightSet {
     std::vector<TriangleLight> triangles;

@@ -29,6 +29,7 @@ struct Situation {
 #define MAP_COMMANDS(game)                                                                                             \
     "view --basepath IN/" game " --map room_square_light --renderer null --size 64x48 --out OUT/a.png",                \
         "info --basepath IN/" game " --map room_square_light",                                                         \
+        "relight --basepath IN/" game " --map room_square_light --out OUT",                                            \
         "subset --basepath IN/" game " --map room_square_light --out OUT/a.pk3",                                       \
         "trade --basepath IN/" game " --map room_square_light --smoke --out OUT/a.jsonl",                              \
         "play --basepath IN/" game " --map room_square_light --headless --frames 2 --renderer null --out OUT"
@@ -73,6 +74,7 @@ const std::vector<Situation> kSituations = {
      "--basepath IN/empty_map --map room_square_light"},
     {"missing_map",
      {"view --basepath IN/good --map nosuch --renderer null --out OUT/a.png", "info --basepath IN/good --map nosuch",
+      "relight --basepath IN/good --map nosuch --out OUT",
       "subset --basepath IN/good --map nosuch --out OUT/a.pk3",
       "trade --basepath IN/good --map nosuch --smoke --out OUT/a.jsonl",
       "play --basepath IN/good --map nosuch --headless --frames 2 --renderer null --out OUT"},
@@ -114,6 +116,7 @@ const std::vector<Situation> kSituations = {
     {"no_place_for_results",
      {"view --basepath IN/good --map room_square_light --renderer null --out /proc/nowhere/a.png",
       "subset --basepath IN/good --map room_square_light --out /proc/nowhere/a.pk3",
+      "relight --basepath IN/good --map room_square_light --out /proc/nowhere",
       "trade --basepath IN/good --map room_square_light --smoke --out /proc/nowhere/a.jsonl",
       "replay --basepath IN/good IN/good.q3t --renderer null --out /proc/nowhere",
       "replay --basepath IN/good IN/good.q3t --renderer null --stats /proc/nowhere/a.jsonl",
@@ -124,6 +127,7 @@ const std::vector<Situation> kSituations = {
     {"a_file_in_place_of_a_folder",
      {"view --basepath IN/good --map room_square_light --renderer null --out IN/good.png/a.png",
       "subset --basepath IN/good --map room_square_light --out IN/good.png/a.pk3",
+      "relight --basepath IN/good --map room_square_light --out IN/good.png",
       "replay --basepath IN/good IN/good.q3t --renderer null --out IN/good.png"},
      "good.png",
      "choose a folder",
@@ -195,6 +199,9 @@ const std::vector<Situation> kSituations = {
       "info",
       "info --map a --all",
       "info --map a --points 1",
+      "relight",
+      "relight --map a --all",
+      "relight --map a --budget -1",
       "subset --out a.pk3",
       "subset --map a --trace b --out c",
       "doctor --nosuch"},

@@ -61,6 +61,13 @@ void addTinyFiles(Corpus& corpus) {
     corpus.add("skin", toBytes("h_head,models/a.tga\ntag_weapon,\n\"l legs\" , \"b\" // c\n"));
     corpus.add("entities",
                toBytes("{ \"classname\" \"light\" \"origin\" \"1 -2 3e4\" /* c */ \"light\" \"300\" }\n{ }"));
+    corpus.add(
+        "lost_lights",
+        toBytes("// c\n{ \"classname\" \"worldspawn\" \"_lightmap\" \"0123\" \"_compensate\" \"2.5\" \"_bounce\" "
+                "\"0.5\" \"_stage\" \"2 64\" \"ambient\" \"4\" \"_color\" \"1 .5 0\"\n\"q3map_surfacelight a/b\" "
+                "\"400 1 .5 0\" \"q3map_skylight c\" \"90 1 1 1\" \"q3map_sun\" \"1 1 .5 90 30 60 2\" }\n"
+                "{ \"classname\" \"light\" \"origin\" \"1 -2 3e4\" \"light\" \"300\" \"target\" \"t\" \"radius\" "
+                "\"64\" }\n{ \"targetname\" \"t\" \"origin\" \"0 0 0\" }\n"));
     corpus.add("script",
                toBytes("a/b\n{\n surfaceparm fog\n fogparms ( 1 .5 0 ) 300\n deformVertexes wave 100 sin 0 1 0 2\n"
                        " skyparms env/a 512 -\n q3map_sun 1 1 1 100 90 45\n {\n map $lightmap\n blendFunc GL_ONE "

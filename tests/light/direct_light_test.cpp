@@ -55,6 +55,16 @@ TEST(FormFactor, HalfSpaceAndDegenerateTriangles) {
     EXPECT_EQ(triangleFormFactor(vec3(0), {0, 0, 1}, point), 0.0);
 }
 
+TEST(SpotShare, FadesInsideItsCircle) {
+    const vec3 axis(0, 0, -1);
+    const auto at = [&](float away) { return spotShare(vec3(away, 0, -200), axis, 0.5f); }; // circle of 100 qu
+    EXPECT_EQ(at(0), 1);
+    EXPECT_EQ(at(100 - kSpotBorderQu), 1);
+    EXPECT_NEAR(at(100 - 0.25f * kSpotBorderQu), 0.25f, 1e-5f);
+    EXPECT_EQ(at(100), 0);
+    EXPECT_EQ(spotShare(vec3(0, 0, 200), axis, 0.5f), 0);
+}
+
 /// Maps whose bake is known to be lit by what their scripts still say: the light model's units are right there.
 TEST(Luxels, ExtractedLightsAgreeWithTheBake) {
     Q3RT_OPEN_GAME_DATA_OR_SKIP(files);

@@ -121,6 +121,7 @@ TEST(Style, DependenciesPointOneWay) {
         {"scene", {"base", "math", "accel", "formats", "scene", "shaders"}},
         {"gpu", {"base", "gpu"}},
         {"frame", {"base", "gpu", "frame"}},
+        {"relight", {"base", "math", "formats", "scene", "relight"}},
         {"metrics", {"base", "metrics"}},
     };
     const std::regex include("^#include \"([a-z_0-9]+)/");

@@ -1,0 +1,94 @@
+#include "host/lost_light_files.hpp"
+
+#include <chrono>
+#include <ctime>
+#include <span>
+
+#include "base/error.hpp"
+#include "base/log.hpp"
+#include "host/engine_process.hpp"
+#include "host/file_bytes.hpp"
+#include "host/output_file.hpp"
+
+namespace q3rt {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string_view asText(const std::vector<std::byte>& bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+/// The lights of a file if it is one of this bake; a damaged one is named and counts as none.
+std::optional<LostLights> readLights(const fs::path& file, const std::string& lightmap) {
+    if (!fs::exists(file)) return std::nullopt;
+    try {
+        const std::vector<std::byte> bytes = readFileBytes(file);
+        LostLights lights = parseLostLights(asText(bytes), file.string());
+        if (lights.lightmap == lightmap) return lights;
+    } catch (const ContentError& damage) {
+        logLine(LogLevel::Warning, "%s; it is made anew", damage.what());
+    }
+    return std::nullopt;
+}
+
+void writeLights(const fs::path& file, const LostLights& lights, const std::string& map) {
+    OutputFile out(file);
+    const std::string text = formatLostLights(lights, map);
+    writeFileBytes(out.temporary(), std::as_bytes(std::span(text)));
+    out.commit();
+}
+
+fs::path fileOf(const RelightJob& job) { return job.folder / (job.map + ".ent"); }
+
+double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+} // namespace
+
+fs::path lostLightFolder(const GameChoice& game) {
+    return cacheFolder() / "home" / findInstallation(game).game / "lights";
+}
+
+bool hasLostLights(Pk3FileSource& files, const RelightJob& job) {
+    const std::string name = "maps/" + job.map + ".bsp";
+    const auto lights = readLights(fileOf(job), lightmapFingerprint(parseBsp(readMap(files, job.map), name)));
+    return lights && lights->stage == 0;
+}
+
+RelightOutcome runRelight(Pk3FileSource& files, const RelightJob& job) {
+    const std::string name = "maps/" + job.map + ".bsp";
+    readMap(files, job.map); // says what is wrong with it
+    RelightOutcome outcome;
+    outcome.file = fileOf(job);
+    fs::path part = outcome.file;
+    part += ".part";
+    checkWritable(outcome.file);
+    TextureLibrary textures(files, TextureSettings{});
+    MaterialLibrary materials(files, textures, MaterialSettings{});
+    const auto world = loadWorld(files, name, materials, WorldSettings{});
+    const auto start = std::chrono::steady_clock::now();
+    const double processorStart = processorSeconds();
+
+    std::optional<LostLights> begun = readLights(part, lightmapFingerprint(world->bsp));
+    if (begun && (begun->stage == 0 || begun->budget != job.settings.budget)) begun.reset();
+    std::unique_ptr<Progress> progress;
+    RelightProgress watcher;
+    watcher.step = [&](size_t done, size_t all) {
+        if (!progress) progress = std::make_unique<Progress>(job.map + ": step", all);
+        progress->advance(done);
+    };
+    watcher.stage = [&](const LostLights& lights) { writeLights(part, lights, job.map); };
+    outcome.result = relight(*world, materials, job.settings, begun ? &*begun : nullptr, watcher);
+    if (outcome.result.luxelCount == 0)
+        throw ContentError(name + " has no lightmap, so there is no light to learn from; draw it without a file");
+    writeLights(outcome.file, outcome.result.lights, job.map);
+    std::error_code ignored; // without a folder of its own it may not be there
+    fs::remove(part, ignored);
+    outcome.wallSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    outcome.processorSeconds = processorSeconds() - processorStart;
+    if (const auto source = files.read("sources/maps/" + job.map + ".map"))
+        outcome.truth = compareWithTruth(parseMapSourceLights(asText(*source)), outcome.result.lights.points);
+    return outcome;
+}
+
+} // namespace q3rt

@@ -1,0 +1,14 @@
+#pragma once
+// Between the fit's strengths and the numbers of scripts and entities (spec of baked light).
+
+#include "relight/light_scene.hpp"
+
+namespace q3rt {
+
+/// Intensity of a point light of value 1.
+inline constexpr float kIntensityOfValue = 7500;
+
+/// Radiosity of a script's value 1: q3map_surfacelight, q3map_skylight.
+inline float radiosityOfValue(EmitterKind::Type type) { return type == EmitterKind::Type::SkyDome ? 0.5f : 0.75f; }
+
+} // namespace q3rt

@@ -1,0 +1,106 @@
+#include "relight/relight_input.hpp"
+
+#include <algorithm>
+
+#include "base/parallel.hpp"
+#include "relight/lost_units.hpp"
+
+namespace q3rt {
+namespace {
+
+/// A residual this small says nothing: rounding and filtering, and what dirt and the compilers' approximations do.
+constexpr float kToleranceLuxels = 3, kToleranceShare = 0.1f;
+/// A map whose brightest luxel is below this was darkened; below that, it is just dark.
+constexpr float kSaturatedLuxel = 250, kDarkestBright = 60;
+/// Rounding of a luxel at the floor.
+constexpr float kFloorSlack = 0.6f;
+constexpr size_t kDarkestOneIn = 50;
+
+float findCompensation(const Bsp& bsp) {
+    uint8_t brightest = 0;
+    for (const uint8_t byte : bsp.lightmaps)
+        brightest = std::max(brightest, byte);
+    return brightest < kSaturatedLuxel && brightest >= kDarkestBright ? 255.0f / brightest : 1.0f;
+}
+
+vec3 findFloor(const World& world, float compensation) {
+    return vec3(world.entities.empty() ? 0 : world.entities[0].number("_minlight", 0) / compensation);
+}
+
+} // namespace
+
+RelightInput::RelightInput(const World& world, const MaterialLibrary& materials, const RelightSettings& s)
+    : settings(s)
+    , scene(world, materials, s.luxels, s.openPoints)
+    , rays(scene, scene.receivers, s.hemisphereRays)
+    , kindColumns(traceEmitters(scene, scene.receivers))
+    , eyes(openEyes(scene))
+    , compensation(findCompensation(world.bsp))
+    , floor(findFloor(world, compensation))
+    , fingerprint(lightmapFingerprint(world.bsp)) {
+    std::vector<LightColumn> skies = rays.skyColumns(scene);
+    for (size_t k = 0; k < skies.size(); ++k)
+        if (scene.kinds[k].type != EmitterKind::Type::Surface) kindColumns[k] = std::move(skies[k]);
+    findShown();
+    findAmbientLimit();
+    price = settings.price * LightFit(makeTargets()).cost() / kIntensityOfValue;
+}
+
+void RelightInput::findShown() {
+    std::vector<char> seen(scene.receivers.size(), 0);
+    parallelFor(seen.size(), [&](size_t i) {
+        const LightReceiver& receiver = scene.receivers[i];
+        const int surface = scene.luxels.patches[i].surface;
+        const Material& material = scene.materials.get(scene.world.surfaces[static_cast<size_t>(surface)].material);
+        if (material.light.surfaceLight > 0) return; // emitters glow, whatever their luxels say
+        for (int p = 0; p < LightReceiver::kPoints && !seen[i]; ++p)
+            seen[i] = scene.open.sees(receiver.position[p], receiver.normal[p]) ? 1 : 0;
+    });
+    isShown.assign(seen.begin(), seen.end());
+}
+
+void RelightInput::findAmbientLimit() {
+    std::vector<float> values;
+    for (size_t i = 0; i < isShown.size(); ++i)
+        if (isShown[i] && scene.luxels.patches[i].areaQu2 > 0) values.push_back(largestOf(bakedIrradiance(i)));
+    if (values.empty()) return;
+    const auto darkest = values.begin() + static_cast<std::ptrdiff_t>(values.size() / kDarkestOneIn);
+    std::nth_element(values.begin(), darkest, values.end());
+    ambientLimit = *darkest;
+}
+
+vec3 RelightInput::luxelOf(const vec3& irradiance) const {
+    const float largest = largestOf(irradiance);
+    const vec3 clamped = largest > 255 ? irradiance * (255 / largest) : irradiance;
+    return glm::max(clamped / compensation, floor);
+}
+
+std::vector<FitTarget> RelightInput::makeTargets() const {
+    std::vector<FitTarget> targets;
+    for (size_t i = 0; i < scene.luxels.patches.size(); ++i) {
+        const LuxelPatch& patch = scene.luxels.patches[i];
+        FitTarget target;
+        target.light = bakedIrradiance(i);
+        target.weight = isShown[i] ? patch.areaQu2 : 0;
+        target.tolerance = compensation * (kToleranceLuxels + kToleranceShare * largestOf(patch.baked));
+        target.atLeast = patch.saturated;
+        target.atMost = floor != vec3(0) && largestOf(patch.baked) <= largestOf(floor) + kFloorSlack;
+        targets.push_back(target);
+    }
+    return targets;
+}
+
+LostLights RelightInput::scripted() const {
+    LostLights lights;
+    lights.lightmap = fingerprint;
+    lights.compensate = compensation;
+    for (const EmitterKind& kind : scene.kinds) {
+        auto& list = kind.type == EmitterKind::Type::SkyDome ? lights.skyLights : lights.surfaceLights;
+        list.push_back({kind.material, kind.radiosity / radiosityOfValue(kind.type), kind.color});
+    }
+    lights.suns = scene.lights.suns;
+    lights.points = scene.lights.points;
+    return lights;
+}
+
+} // namespace q3rt
