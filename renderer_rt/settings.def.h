@@ -1,5 +1,5 @@
 // Settings of the ray tracer. Only those that do something are declared.
-SETTING(rt_printPerfStats, Int, 0, 0, 1, A, "", "prints times, rays and structures once a second")
+SETTING(rt_printPerfStats, Int, 0, 0, 2, A, "", "1 prints times and structures once a second; 2 shows them on the picture")
 SETTING(rt_illumination, Int, 1, 0, 1, A, "", "0 shows plain textures, 1 lights them by rays")
 SETTING(rt_cullLights, Int, 1, 0, 1, A, "", "0 tries all lights, 1 those potentially visible from the point's cluster")
 SETTING(rt_numRandomDL, Int, 1, 0, 64, A, "lights", "lights chosen at random for each pixel; 0 all of them")

@@ -54,7 +54,7 @@ void TraceRenderer::onGpuFrameEnd() {
         writeRadiance(m_radianceFile);
         m_radianceFile.clear();
     }
-    if (m_settings.rt_printPerfStats) printStats();
+    if (m_settings.rt_printPerfStats == kPerformanceLine) printStats();
 }
 
 void TraceRenderer::writeRadiance(const std::string& file) {

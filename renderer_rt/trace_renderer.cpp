@@ -53,6 +53,7 @@ void TraceRenderer::loadScene(TracedScene& scene) {
 }
 
 void TraceRenderer::onGpuWorldLoaded() {
+    registerOverlayFont();
     loadScene(*m_scene);
     m_frameNumber = 0;
     const StaticGeometry& statics = *m_scene->statics();
@@ -100,7 +101,8 @@ void TraceRenderer::beginReport(FrameGraph& graph, ViewResources& resources) {
     resources.check = m_check ? &*m_check : nullptr;
 }
 
-void TraceRenderer::addFrameEnd(FrameGraph& graph, FrameTargets&, bool) {
+void TraceRenderer::addFrameEnd(FrameGraph& graph, FrameTargets& targets, bool captured) {
+    addOverlay(graph, targets, captured);
     if (m_reportBuffer) m_report->addCopy(graph, m_reportBuffer);
 }
 

@@ -12,6 +12,9 @@
 
 namespace q3rt {
 
+/// Values of rt_printPerfStats.
+inline constexpr int kPerformanceLine = 1, kPerformanceOverlay = 2;
+
 /// Values of rt_compare.
 inline constexpr int kCompareRaster = 1, kCompareAccumulated = 2;
 
@@ -60,6 +63,12 @@ class TraceRenderer final : public GpuRenderer {
     /// rt_pause and rt_accumulate stop the game.
     void followPause();
     void pauseGame(bool paused);
+    void registerOverlayFont();
+    /// Numbers over the picture, if they are wanted.
+    void addOverlay(FrameGraph& graph, FrameTargets& targets, bool captured);
+    std::vector<std::string> performanceLines();
+    /// Of a mean of plain samples: how many there are, and how far it is from the truth.
+    std::vector<std::string> meanLines() const;
     void addScreenshotCommand();
     void removeScreenshotCommand();
     void warmPipelines() { runStill({8, 8}, true); }
@@ -93,6 +102,7 @@ class TraceRenderer final : public GpuRenderer {
     ExposureStep m_exposureStep;        ///< of the view being prepared
     bool m_worldSeen = false;           ///< in the last frame
     bool m_paused = false;              ///< by us
+    int m_overlayFont = 0;              ///< shader; 0: the game has none
     std::string m_radianceFile;         ///< asked for by screenshotHDR
     int m_lastPrintMs = 0;
     uint32_t m_movingTriangleCount = 0, m_instanceCount = 0;

@@ -1,5 +1,7 @@
 #include "renderer_vk/gpu_renderer.hpp"
 
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "gpu/device.hpp"
@@ -88,24 +90,26 @@ void GpuRenderer::onFrame(const FrameCommands& frame, FrameImage* capture) {
     if (settings().q3rt_wantStats != 0) publishStats();
 }
 
+std::vector<TimerRow> GpuRenderer::passTimes() const {
+    std::vector<TimerRow> sums;
+    for (const TimerRow& row : m_context->ring().timers().results()) {
+        const auto found =
+            std::find_if(sums.begin(), sums.end(), [&](const TimerRow& sum) { return sum.name == row.name; });
+        if (found != sums.end())
+            found->ms += row.ms;
+        else
+            sums.push_back(row);
+    }
+    return sums;
+}
+
 void GpuRenderer::publishStats() {
-    const auto& rows = m_context->ring().timers().results();
     double total = 0;
     std::string passes;
-    // A pass may come more than once in a frame: its times add up under one name.
-    std::vector<TimerRow> sums;
-    for (const TimerRow& row : rows) {
-        total += row.ms;
-        bool found = false;
-        for (TimerRow& sum : sums) {
-            if (sum.name != row.name) continue;
-            sum.ms += row.ms;
-            found = true;
-        }
-        if (!found) sums.push_back(row);
+    for (const TimerRow& pass : passTimes()) {
+        total += pass.ms;
+        passes += formatText("%s\"%s\":%.4f", passes.empty() ? "" : ",", pass.name.c_str(), pass.ms);
     }
-    for (const TimerRow& sum : sums)
-        passes += formatText("%s\"%s\":%.4f", passes.empty() ? "" : ",", sum.name.c_str(), sum.ms);
     engine().setCvar("q3rt_stats",
                      formatText("{\"gpu_ms\":%.4f,\"passes\":{%s},\"device\":\"%s\",\"backend\":\"%s\"%s}", total,
                                 passes.c_str(), m_context->device().capabilities().deviceName.c_str(), backendName(),

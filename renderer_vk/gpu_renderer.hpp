@@ -46,6 +46,8 @@ class GpuRenderer : public FrontEnd {
     StageTable& stageTable() { return *m_stages; }
     const RasterSettings& rasterSettings() const { return m_rasterSettings; }
     DrawListSettings drawListSettings() const;
+    /// Milliseconds of each pass of the newest finished frame; a pass may come more than once: its times add up.
+    std::vector<TimerRow> passTimes() const;
     /// True once the first registration has opened the device.
     bool hasDevice() const { return m_context != nullptr; }
 

@@ -141,6 +141,18 @@ TEST_F(ShownPictureTest, PauseStopsTheGame) {
     }
 }
 
+TEST_F(ShownPictureTest, NumbersShowOnThePictureAndNotOnAKeptMean) {
+    const HostFrame plain = show({{"rt_accumulate", "1"}}, 3);
+    const Settings overlay{{"rt_accumulate", "1"}, {"rt_printPerfStats", "2"}};
+    EXPECT_EQ(plain.rgb, show(overlay, 3).rgb) << "the game has no font";
+    // Every character is a white box.
+    m_game.add("gfx/2d/bigchars.png", encodePng(16, 16, 3, std::vector<uint8_t>(16 * 16 * 3, 255)));
+    EXPECT_EQ(plain.rgb, show({{"rt_accumulate", "1"}}, 3).rgb);
+    const HostFrame numbers = show(overlay, 3);
+    EXPECT_GT(worstDifference(plain, numbers, 6, kWidth), 100);
+    EXPECT_EQ(worstDifference(plain, numbers, 0, 6), 0) << "there is a margin";
+}
+
 TEST_F(ShownPictureTest, NothingIsInfiniteInAnyPass) {
     const auto harness = makeRoom({{"rt_checkFinite", "1"}, {"q3rt_wantStats", "1"}, {"rt_autoExposure", "1"}});
     harness->draw(kCamera, 5);
