@@ -65,6 +65,7 @@ void TraceRenderer::onGpuWorldLoaded() {
 void TraceRenderer::onGpuReady() {
     addScreenshotCommand();
     if (!m_scene->hasWorld()) return;
+    m_pace.applyPreset(m_settings);
     if (!m_calibrationKey.empty()) calibrate();
     warmPipelines();
     // Whatever was drawn while the map was loaded, the first picture of the world is the same.
@@ -83,6 +84,11 @@ void TraceRenderer::onGpuContentDropped() {
 }
 
 void TraceRenderer::onGpuFrameBegin(const FrameCommands&) {
+    const GpuTimers& timers = context().ring().timers();
+    double finishedMs = 0;
+    for (const TimerRow& row : timers.results())
+        finishedMs += row.ms;
+    m_pace.apply(m_settings, context().ring().frameNumber(), timers.resultsFrame(), finishedMs);
     m_views.clear();
     m_scene->beginFrame();
     m_report->beginFrame(context().ring().slot());
@@ -130,6 +136,7 @@ std::string TraceRenderer::extraStats() const {
                            kStructureClassNames[i], m_classCounts[i].surfaces, m_classCounts[i].triangles,
                            m_classCounts[i].builds);
     text += "}";
+    if (m_settings.rt_targetMs > 0) text += formatText(",\"level\":%zu", m_pace.level());
     const ReportNumbers& report = m_report->latest();
     if (m_lastBuffers && m_lastBuffers->sums)
         text += formatText(",\"samples\":%u", m_lastBuffers->sums->sampleNumber + 1);

@@ -6,6 +6,7 @@
 #include "base/measured_rounds.hpp"
 #include "renderer_rt/denoise_pipelines.hpp"
 #include "renderer_rt/frame_report.hpp"
+#include "renderer_rt/pace.hpp"
 #include "renderer_rt/passes/taa.hpp"
 #include "renderer_rt/trace_settings.hpp"
 #include "renderer_vk/gpu_renderer.hpp"
@@ -48,7 +49,8 @@ class TraceRenderer final : public GpuRenderer {
     bool accumulates() const;
     /// All that a view's picture depends on: equal keys, equal expected pictures.
     std::vector<uint32_t> viewKey(const FrameCommands& frame, const SceneView& scene) const;
-    /// What changes the light of a view that stays the same.
+    /// What changes the light of a view that stays the same: histories end. Levels of rt_targetMs change noise and what
+    /// distant mirrors show: histories go on.
     std::vector<uint32_t> settingsKey() const;
     /// rt_scale of what is shown.
     VkExtent2D tracedExtent(VkExtent2D shown) const;
@@ -82,7 +84,8 @@ class TraceRenderer final : public GpuRenderer {
     void writeRadiance(const std::string& file);
     static void onScreenshotHdr();
 
-    TraceSettings m_settings;
+    TraceSettings m_settings; ///< as the cvars say at a frame's start, then as rt_preset and rt_targetMs make them
+    Pace m_pace;
     std::unique_ptr<StagePipelines> m_pipelines;
     std::unique_ptr<PicturePipelines> m_pictures;
     std::unique_ptr<DenoisePipelines> m_denoisePipelines; ///< made when a denoiser is first wanted

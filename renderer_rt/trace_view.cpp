@@ -97,15 +97,16 @@ void TraceRenderer::describeSettings(RtFrame& out) const {
 
 std::vector<uint32_t> TraceRenderer::settingsKey() const {
     std::vector<uint32_t> key;
-    appendBits(key, std::array{m_settings.rt_illumination, m_settings.rt_cullLights, m_settings.rt_numRandomDL,
-                               m_settings.rt_softshadows, m_settings.rt_antialiasing, m_settings.rt_seed,
-                               m_settings.rt_tonemap, m_settings.rt_reflectionDepth, m_settings.rt_linear});
+    appendBits(key,
+               std::array{m_settings.rt_illumination, m_settings.rt_cullLights, m_settings.rt_softshadows,
+                          m_settings.rt_antialiasing, m_settings.rt_seed, m_settings.rt_tonemap, m_settings.rt_linear});
     appendBits(key, std::array{m_settings.rt_ambient, m_settings.rt_exposure, m_settings.rt_minLight});
     return key;
 }
 
 std::vector<uint32_t> TraceRenderer::viewKey(const FrameCommands& frame, const SceneView& scene) const {
     std::vector<uint32_t> key = settingsKey();
+    appendBits(key, std::array{m_settings.rt_numRandomDL, m_settings.rt_reflectionDepth});
     for (const vec3& v : {scene.view.origin, scene.view.axis[0], scene.view.axis[1], scene.view.axis[2]})
         appendBits(key, v);
     appendBits(key, std::array{scene.fovXDegrees, scene.fovYDegrees});

@@ -14,12 +14,13 @@
 #include "host/trade_front.hpp"
 #include "host/trade_measure.hpp"
 #include "host/trade_plot.hpp"
+#include "host/trade_presets.hpp"
 
 namespace q3rt {
 namespace {
 
 struct TradeArguments {
-    std::string recording, renderer = "rt", out, svg, shard = "0/1", evaluation;
+    std::string recording, renderer = "rt", out, svg, presets, shard = "0/1", evaluation;
     MapSourceOptions map;
     std::vector<int> recordedFrames;
     PictureSize size{320, 240};
@@ -206,6 +207,10 @@ void report(const TradeArguments& a, const std::string& title, const std::vector
         const std::string svg = drawTradePlot(title, results, labels);
         writeFileBytes(a.svg, std::as_bytes(std::span(svg)));
     }
+    if (!a.presets.empty()) {
+        const std::string text = formatPresets(results, title, readCommandLine());
+        writeFileBytes(a.presets, std::as_bytes(std::span(text)));
+    }
     if (!a.json) {
         std::printf("%s\n%s", title.c_str(), formatTradeTable(results, labels).c_str());
         return;
@@ -318,6 +323,8 @@ void addTradeCommand(CLI::App& app, int& exitCode) {
         ->delimiter(',')
         ->capture_default_str();
     command->add_option("--svg", a->svg, "Also draw time against error into this file");
+    command->add_option("--presets", a->presets,
+                        "Also write presets and the levels of rt_targetMs into this file: renderer_rt/presets.def.h");
     addRendererOption(*command, a->renderer);
     addSizeOption(*command, a->size);
     addSetOption(*command, a->fixed);

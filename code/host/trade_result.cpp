@@ -112,6 +112,7 @@ std::optional<TradeResult> parseResult(const std::string& line) {
         result.key = json.at("key");
         result.device = json.at("device");
         result.backend = json.at("backend");
+        result.module = json.value("module", "");
         result.point.size = {json.at("width"), json.at("height")};
         for (const auto& [name, value] : json.at("settings").items())
             if (name == "frames")
