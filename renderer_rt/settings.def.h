@@ -6,6 +6,7 @@ SETTING(rt_numRandomDL, Int, 1, 0, 64, A, "lights", "lights chosen at random for
 SETTING(rt_lightCandidates, Int, 16, 1, 4096, A, "lights", "triangle lights weighed for each choice; a longer list is sampled")
 SETTING(rt_softshadows, Int, 1, 0, 1, A, "", "suns and dynamic lights have a size")
 SETTING(rt_reflectionDepth, Int, 5, 1, 16, A, "", "mirrors, portals and reflections one after the other")
+SETTING(rt_lostLights, Int, 1, 0, 1, A, "", "lights of lights/MAP.ent, which 'q3rt relight' makes, in place of what scripts and map say")
 SETTING(rt_ambient, Float, 1.0f, 0, 4, A, "factor", "of the light grid, for light that no extracted light explains")
 SETTING(rt_scale, Int, 100, 50, 100, A, "percent", "of the picture's width and height that is traced; the rest comes from earlier frames (rt_taa)")
 SETTING(rt_antialiasing, Int, 0, 0, 1, A, "", "rays at changing places of a pixel; smooth with rt_taa or rt_accumulate")

@@ -1,4 +1,4 @@
-// What the ray tracer adds around the frame: warming at load, the statistics line, radiance to a file.
+// What the ray tracer adds around the frame: warming and lights at load, the statistics line, radiance to a file.
 
 #include <algorithm>
 #include <chrono>
@@ -11,6 +11,7 @@
 #include "gpu/device.hpp"
 #include "gpu/readback.hpp"
 #include "renderer_rt/calibration.hpp"
+#include "renderer_rt/lost_light_file.hpp"
 #include "renderer_rt/trace_renderer.hpp"
 
 namespace q3rt {
@@ -24,18 +25,41 @@ TraceRenderer* currentRenderer = nullptr;
 
 } // namespace
 
-void TraceRenderer::addScreenshotCommand() {
-    if (m_commandAdded) return;
+void TraceRenderer::addCommands() {
+    if (m_commandsAdded) return;
     currentRenderer = this;
     engine().addCommand("screenshotHDR", &TraceRenderer::onScreenshotHdr);
-    m_commandAdded = true;
+    engine().addCommand("rt_reloadLights", &TraceRenderer::onReloadLights);
+    m_commandsAdded = true;
 }
 
-void TraceRenderer::removeScreenshotCommand() {
-    if (!m_commandAdded) return;
+void TraceRenderer::removeCommands() {
+    if (!m_commandsAdded) return;
     engine().removeCommand("screenshotHDR");
+    engine().removeCommand("rt_reloadLights");
     currentRenderer = nullptr;
-    m_commandAdded = false;
+    m_commandsAdded = false;
+}
+
+void TraceRenderer::onReloadLights() {
+    if (currentRenderer) currentRenderer->m_reloadLights = true;
+}
+
+void TraceRenderer::loadLights() {
+    m_lights = extractLights(*world(), materials());
+    m_lostLights = m_settings.rt_lostLights;
+    m_reloadLights = false;
+    if (m_lostLights == 0) return;
+    if (const auto lost = readLostLights(engine(), *world())) applyLostLights(*lost, *world(), materials(), m_lights);
+}
+
+void TraceRenderer::followLights() {
+    if (!m_scene->hasWorld() || (!m_reloadLights && m_lostLights == m_settings.rt_lostLights)) return;
+    loadLights();
+    context().device().waitIdle();
+    m_scene->loadLights(m_lights);
+    m_buffers.clear(); // what was seen in other light
+    m_lastBuffers = nullptr;
 }
 
 void TraceRenderer::onScreenshotHdr() {

@@ -14,7 +14,7 @@ TraceRenderer::TraceRenderer(EngineServices& engine)
 }
 
 TraceRenderer::~TraceRenderer() {
-    removeScreenshotCommand();
+    removeCommands();
     if (hasDevice()) context().device().waitIdle();
 }
 
@@ -49,11 +49,12 @@ void TraceRenderer::useBackend(Backend backend) {
 
 void TraceRenderer::loadScene(TracedScene& scene) {
     scene.setContent(materials(), textures());
-    scene.loadWorld(*world());
+    scene.loadWorld(*world(), m_lights);
 }
 
 void TraceRenderer::onGpuWorldLoaded() {
     registerOverlayFont();
+    loadLights();
     loadScene(*m_scene);
     m_frameNumber = 0;
     const StaticGeometry& statics = *m_scene->statics();
@@ -63,7 +64,7 @@ void TraceRenderer::onGpuWorldLoaded() {
 }
 
 void TraceRenderer::onGpuReady() {
-    addScreenshotCommand();
+    addCommands();
     if (!m_scene->hasWorld()) return;
     m_pace.applyPreset(m_settings);
     if (!m_calibrationKey.empty()) calibrate();
@@ -75,7 +76,7 @@ void TraceRenderer::onGpuReady() {
 }
 
 void TraceRenderer::onGpuContentDropped() {
-    removeScreenshotCommand();
+    removeCommands();
     if (m_paused) pauseGame(false);
     m_views.clear();
     m_buffers.clear();
@@ -90,6 +91,7 @@ void TraceRenderer::onGpuFrameBegin(const FrameCommands&) {
         finishedMs += row.ms;
     m_pace.apply(m_settings, context().ring().frameNumber(), timers.resultsFrame(), finishedMs);
     m_views.clear();
+    followLights();
     m_scene->beginFrame();
     m_report->beginFrame(context().ring().slot());
     m_reportBuffer = {};

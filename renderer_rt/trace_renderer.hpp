@@ -71,8 +71,12 @@ class TraceRenderer final : public GpuRenderer {
     std::vector<std::string> performanceLines();
     /// Of a mean of plain samples: how many there are, and how far it is from the truth.
     std::vector<std::string> meanLines() const;
-    void addScreenshotCommand();
-    void removeScreenshotCommand();
+    void addCommands();
+    void removeCommands();
+    /// The map's lights, with its file of lost ones if they are wanted.
+    void loadLights();
+    /// rt_reloadLights and changes of rt_lostLights.
+    void followLights();
     void warmPipelines() { runStill({8, 8}, true); }
     /// Draws a still of the map that nobody sees, with the filters or without; times from submission to the end.
     RunTime runStill(VkExtent2D extent, bool filters);
@@ -83,6 +87,7 @@ class TraceRenderer final : public GpuRenderer {
     void printStats();
     void writeRadiance(const std::string& file);
     static void onScreenshotHdr();
+    static void onReloadLights();
 
     TraceSettings m_settings; ///< as the cvars say at a frame's start, then as rt_preset and rt_targetMs make them
     Pace m_pace;
@@ -94,7 +99,10 @@ class TraceRenderer final : public GpuRenderer {
     std::list<TracedView> m_views;    ///< of this frame; passes refer to them
     ViewGeometry m_geometry;
     ViewBuffers* m_lastBuffers = nullptr;
-    bool m_commandAdded = false;
+    bool m_commandsAdded = false;
+    LightSet m_lights;
+    int m_lostLights = 0; ///< rt_lostLights of these
+    bool m_reloadLights = false;
     std::string m_calibrationKey; ///< not empty: the back end is to be measured when a map is there
     std::string m_backendReason;
     uint32_t m_pictureNumber = 0; ///< of drawn frames since registration ended

@@ -30,12 +30,17 @@ void TracedScene::setContent(const MaterialLibrary& materials, const TextureLibr
     m_models = std::make_unique<ModelGeometry>(m_context.device(), m_backend);
 }
 
-void TracedScene::loadWorld(const World& world) {
+void TracedScene::loadWorld(const World& world, const LightSet& lights) {
     m_world = &world;
     Device& device = m_context.device();
     m_statics =
         std::make_unique<StaticGeometry>(device, m_context.uploader(), world, m_builder->materials(), m_backend);
-    m_lights = std::make_unique<WorldLights>(device, m_context.uploader(), world, m_builder->materials());
+    loadLights(lights);
+}
+
+void TracedScene::loadLights(const LightSet& lights) {
+    m_lights = std::make_unique<WorldLights>(m_context.device(), m_context.uploader(), *m_world, m_builder->materials(),
+                                             lights);
 }
 
 void TracedScene::dropContent() {

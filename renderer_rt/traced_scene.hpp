@@ -31,7 +31,9 @@ class TracedScene {
   public:
     TracedScene(GpuContext& context, Backend backend);
     void setContent(const MaterialLibrary& materials, const TextureLibrary& textures);
-    void loadWorld(const World& world);
+    void loadWorld(const World& world, const LightSet& lights);
+    /// Other lights for the same world. The device is idle.
+    void loadLights(const LightSet& lights);
     void dropContent();
     bool hasWorld() const { return m_statics != nullptr; }
 

@@ -165,8 +165,8 @@ TriangleLight moveLight(const TriangleLight& light, const mat4& worldFromModel) 
     return moved;
 }
 
-WorldLights::WorldLights(Device& device, Uploader& uploader, const World& world, const MaterialLibrary& materials) {
-    const LightSet lights = extractLights(world, materials);
+WorldLights::WorldLights(Device& device, Uploader& uploader, const World& world, const MaterialLibrary& materials,
+                         const LightSet& lights) {
     LightTables tables = buildLightTables(world, lights, findSkyClusters(world, materials));
     explainGrid(world, materials, tables);
     m_others = tables.others;

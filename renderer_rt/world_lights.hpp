@@ -34,7 +34,8 @@ TriangleLight moveLight(const TriangleLight& light, const mat4& worldFromModel);
 
 class WorldLights {
   public:
-    WorldLights(Device& device, Uploader& uploader, const World& world, const MaterialLibrary& materials);
+    WorldLights(Device& device, Uploader& uploader, const World& world, const MaterialLibrary& materials,
+                const LightSet& lights);
     /// Fills the frame's light addresses and counts, all but `lights` (see others()).
     void describe(RtFrame& frame) const;
     /// All triangle lights, those of movers where the view has them; empty if all are where describe() says.

@@ -89,6 +89,16 @@ void Pk3FileSource::addGameFolder(const fs::path& folder) {
     addContainer({folder, std::nullopt, listLooseFiles(folder), {}});
 }
 
+void Pk3FileSource::addFolder(const fs::path& folder) {
+    std::error_code error;
+    if (!fs::is_directory(folder, error)) return;
+    Container container{folder.parent_path(), std::nullopt, listLooseFiles(folder), {}};
+    for (std::string& name : container.names)
+        name = folder.filename().string() + "/" + name;
+    addContainer(std::move(container));
+    std::rotate(m_containers.begin(), m_containers.end() - 1, m_containers.end());
+}
+
 void Pk3FileSource::addContainer(Container container) {
     for (size_t i = 0; i < container.names.size(); ++i) {
         // Of two entries with one name the later one counts.

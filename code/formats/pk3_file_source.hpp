@@ -29,6 +29,9 @@ class Pk3FileSource : public FileSource {
     /// Folders that don't exist are passed over, and so are damaged archives: damages() names them.
     Pk3FileSource(const std::vector<std::filesystem::path>& baseFolders, const std::vector<std::string>& gameFolders);
 
+    /// Files of a folder by its own name, "lights/a.ent" of /x/lights, before all that is there already.
+    void addFolder(const std::filesystem::path& folder);
+
     std::optional<std::vector<std::byte>> read(std::string_view name) override;
     /// The same, but throws ContentError where read() would warn of a damaged copy and go on to the next one.
     std::optional<std::vector<std::byte>> readIntact(std::string_view name);

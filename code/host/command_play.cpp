@@ -11,6 +11,7 @@
 #include "host/commands.hpp"
 #include "host/engine_process.hpp"
 #include "host/file_bytes.hpp"
+#include "host/lost_light_files.hpp"
 #include "host/output_file.hpp"
 
 namespace q3rt {
@@ -22,7 +23,7 @@ struct PlayArguments {
     EngineRun run;
     std::string demo, renderer = "rt", out, stats;
     int every = 100;
-    bool json = false;
+    bool json = false, relight = false;
 };
 
 bool hasDisplay() {
@@ -90,6 +91,7 @@ void runPlay(PlayArguments& a) {
     const auto files = openGame(run.game);
     if (!a.demo.empty()) run.demo = findDemo(*files, a.demo);
     if (!run.map.empty()) readMap(*files, run.map);
+    if (a.relight) ensureLostLights(*files, run.game, run.map);
     run.headless = run.headless || !hasDisplay();
     if (run.headless && a.demo.empty() && run.frameLimit == 0)
         throw UsageError("a game without a display needs an end: give --demo, or --map with --frames");
@@ -113,7 +115,9 @@ void addPlayCommand(CLI::App& app, int& exitCode) {
         "play", "Play a demo or a map in the packaged engine; without a display, as fast as it draws, into pictures");
     const auto a = std::make_shared<PlayArguments>();
     CLI::Option* demo = command->add_option("--demo", a->demo, "Demo of the game, such as demo088-test1");
-    command->add_option("--map", a->run.map, "Map to start")->excludes(demo);
+    CLI::Option* map = command->add_option("--map", a->run.map, "Map to start")->excludes(demo);
+    command->add_flag("--relight", a->relight, "Before that, recover the light that the map lost, unless that is done")
+        ->needs(map);
     addRendererOption(*command, a->renderer);
     command->add_flag("--headless", a->run.headless, "No window (the default where there is no display)");
     addSizeOption(*command, a->run.size);

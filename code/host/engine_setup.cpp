@@ -76,6 +76,22 @@ void writeSettings(const EngineRun& run, const fs::path& gameHome) {
     writeFileBytes(gameHome / "autoexec.cfg", std::as_bytes(std::span(script)));
 }
 
+/// Recovered lights, installed ones and the user's own, where the engine looks.
+void linkLights(const Installation& installation, const fs::path& gameHome) {
+    for (const fs::path& folder : installation.lightFolders) {
+        std::error_code error;
+        if (fs::equivalent(folder, gameHome / "lights", error)) continue;
+        for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+            const fs::path link = gameHome / "lights" / entry->path().filename();
+            std::error_code ignored;
+            if (entry->path().extension() != ".ent" || (fs::exists(link, ignored) && !fs::is_symlink(link, ignored)))
+                continue;
+            fs::create_directories(link.parent_path());
+            linkFile(entry->path(), link);
+        }
+    }
+}
+
 std::string rendererName(const fs::path& module) {
     const std::string file = module.filename().string();
     constexpr std::string_view kPrefix = "renderer_", kSuffix = "_x86_64.so";
@@ -171,6 +187,7 @@ EngineCommand prepareEngine(const EngineRun& run, const fs::path& home) {
     if (installation.libraryBase.empty())
         throw UsageError("the game's libraries are missing: install the package openarena");
     writeSettings(run, home / installation.game);
+    linkLights(installation, home / installation.game);
 
     EngineCommand command;
     command.program = installation.engine;

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "base/user_cache.hpp"
 #include "formats/text_case.hpp"
 
 namespace q3rt {
@@ -61,6 +62,8 @@ Installation findInstallation(const GameChoice& choice) {
     found.libraryBase = isPackaged ? ifExists(kLibraryBase) : found.dataBase;
     std::error_code error;
     found.programFolder = fs::read_symlink("/proc/self/exe", error).parent_path();
+    found.lightFolders = {found.programFolder / found.game / "lights",
+                          userCacheFolder() / "home" / found.game / "lights"};
     return found;
 }
 

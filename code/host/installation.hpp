@@ -21,6 +21,8 @@ struct Installation {
     std::string game;
     std::vector<std::filesystem::path> archives; ///< pk3 files of the game folder, by name
     std::filesystem::path programFolder;         ///< of the running program: our renderer modules stand beside it
+    /// lights/ of the game as installed beside the program, then as the user made them in q3rt's home folder.
+    std::vector<std::filesystem::path> lightFolders;
 };
 
 Installation findInstallation(const GameChoice& choice = {});

@@ -19,17 +19,21 @@ std::string_view asText(const std::vector<std::byte>& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// The lights of a file if it is one of this bake; a damaged one is named and counts as none.
-std::optional<LostLights> readLights(const fs::path& file, const std::string& lightmap) {
-    if (!fs::exists(file)) return std::nullopt;
+/// Lights of this bake; a damaged file is named and counts as none.
+std::optional<LostLights> parseIfCurrent(const std::vector<std::byte>& bytes, const std::string& name,
+                                         const std::string& lightmap) {
     try {
-        const std::vector<std::byte> bytes = readFileBytes(file);
-        LostLights lights = parseLostLights(asText(bytes), file.string());
+        LostLights lights = parseLostLights(asText(bytes), name);
         if (lights.lightmap == lightmap) return lights;
     } catch (const ContentError& damage) {
         logLine(LogLevel::Warning, "%s; it is made anew", damage.what());
     }
     return std::nullopt;
+}
+
+std::optional<LostLights> readLights(const fs::path& file, const std::string& lightmap) {
+    if (!fs::exists(file)) return std::nullopt;
+    return parseIfCurrent(readFileBytes(file), file.string(), lightmap);
 }
 
 void writeLights(const fs::path& file, const LostLights& lights, const std::string& map) {
@@ -46,13 +50,24 @@ double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PE
 } // namespace
 
 fs::path lostLightFolder(const GameChoice& game) {
-    return cacheFolder() / "home" / findInstallation(game).game / "lights";
+    cacheFolder(); // says what is wrong with it
+    return findInstallation(game).lightFolders.back();
 }
 
 bool hasLostLights(Pk3FileSource& files, const RelightJob& job) {
     const std::string name = "maps/" + job.map + ".bsp";
     const auto lights = readLights(fileOf(job), lightmapFingerprint(parseBsp(readMap(files, job.map), name)));
     return lights && lights->stage == 0;
+}
+
+void ensureLostLights(Pk3FileSource& files, const GameChoice& game, const std::string& map) {
+    const std::string name = "lights/" + map + ".ent";
+    if (const auto bytes = files.read(name)) {
+        const Bsp bsp = parseBsp(readMap(files, map), "maps/" + map + ".bsp");
+        const auto lights = parseIfCurrent(*bytes, name, lightmapFingerprint(bsp));
+        if (lights && lights->stage == 0) return;
+    }
+    runRelight(files, {map, lostLightFolder(game), {}});
 }
 
 RelightOutcome runRelight(Pk3FileSource& files, const RelightJob& job) {

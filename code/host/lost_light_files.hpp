@@ -26,8 +26,10 @@ struct RelightOutcome {
     double wallSeconds = 0, processorSeconds = 0;
 };
 
-/// Is there a finished file for this map as it is?
+/// Is there a finished file for this map as it is, in the job's folder?
 bool hasLostLights(Pk3FileSource& files, const RelightJob& job);
+/// Makes the file in the user's folder if the game has none for this map as it is.
+void ensureLostLights(Pk3FileSource& files, const GameChoice& game, const std::string& map);
 /// Finds the lights and writes the file. What an earlier run of the same job left half done is gone on with.
 RelightOutcome runRelight(Pk3FileSource& files, const RelightJob& job);
 

@@ -29,6 +29,12 @@ std::string readSize(const std::string& text, PictureSize& size) {
     return "'" + text + "' is no picture size: write WIDTHxHEIGHT in pixels, such as 640x480";
 }
 
+/// The engine finds them in its home folder (engine_setup.cpp).
+void addLights(Pk3FileSource& files, const Installation& installation) {
+    for (const fs::path& folder : installation.lightFolders)
+        files.addFolder(folder);
+}
+
 } // namespace
 
 void addGameOptions(CLI::App& command, GameChoice& choice) {
@@ -90,6 +96,7 @@ std::unique_ptr<Pk3FileSource> openGame(const GameChoice& choice) {
                                       "--basepath and --game",
                                       (installation.dataBase / installation.game).c_str()));
     auto files = std::make_unique<Pk3FileSource>(std::vector{installation.dataBase}, std::vector{installation.game});
+    addLights(*files, installation);
     // The engine would go on without it, but what is drawn, counted or recorded here is to be complete.
     if (!files->damages().empty()) throw ContentError(files->damages().front());
     return files;
@@ -115,6 +122,7 @@ RecordedFiles::RecordedFiles(const Recording& recording, const GameChoice& choic
         // Demos of the other game version were played with the mission pack beneath the game.
         auto extended = std::make_unique<Pk3FileSource>(std::vector{installation.dataBase},
                                                         std::vector<std::string>{"missionpack", installation.game});
+        addLights(*extended, installation);
         std::string name;
         const size_t remaining = countDifferences(*extended, name);
         if (remaining < differences) {

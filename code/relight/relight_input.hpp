@@ -8,7 +8,7 @@
 namespace q3rt {
 
 struct RelightSettings {
-    LuxelMapSettings luxels{.patchCount = 8192};
+    LuxelMapSettings luxels;
     int hemisphereRays = 96; ///< of each patch, for bounces and skies
     size_t openPoints = 6000;
     size_t budget = 256;     ///< point and spot lights at most

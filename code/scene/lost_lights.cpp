@@ -259,6 +259,8 @@ void applyLostLights(const LostLights& lost, const World& world, const MaterialL
         sky.radiosity = scale * strength->value * (sky.upperHemisphere ? kSkyLightHalf : kRadiosityOfValue);
         sky.color = strength->color;
     }
+    std::erase_if(lights.triangles, [](const TriangleLight& light) { return light.radiance == vec3(0); });
+    std::erase_if(lights.skies, [](const SkyLight& sky) { return !(sky.radiosity > 0); });
     addLostSkies(world, materials, surfaceLights, scale, lights);
     lights.suns = lost.suns;
     lights.points = lost.points;

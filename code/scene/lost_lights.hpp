@@ -36,7 +36,7 @@ std::string lightmapFingerprint(const Bsp& bsp);
 std::string formatLostLights(const LostLights& lights, std::string_view map);
 /// `name` is used in messages. Throws ContentError with the line of the first thing that is wrong.
 LostLights parseLostLights(std::string_view text, std::string_view name);
-/// Puts what the file says in place of what the scripts say.
+/// Puts what the file says in place of what the scripts say. What it says is dark is no light any more.
 void applyLostLights(const LostLights& lost, const World& world, const MaterialLibrary& materials, LightSet& lights);
 
 } // namespace q3rt

@@ -1,0 +1,114 @@
+// lights/MAP.ent in the renderer: in place of what scripts say, at once when it is reloaded, and left out when it is
+// damaged.
+
+#include <gtest/gtest.h>
+
+#include "base/log.hpp"
+#include "renderer_rt/lost_light_file.hpp"
+#include "tests/truth/test_game.hpp"
+#include "trace_harness.hpp"
+
+namespace q3rt {
+namespace {
+
+using test::TestGame;
+using test::TraceHarness;
+
+constexpr const char* kFile = "lights/room_square_light.ent";
+constexpr const char* kMap = "maps/room_square_light.bsp";
+constexpr int kSize = 12, kFrames = 4;
+/// Straight down at the middle of the floor, so near that it is one point: 4 qu wide.
+const test::Camera kDown{.eye = {0, 0, 20}, .pitch = 90, .fovX = 12};
+const dvec3 kSeen(0, 0, 0), kUp(0, 0, 1);
+
+/// The emitter is dark, and a point light of this value hangs above the floor.
+constexpr double kHeight = 200;
+std::string lightText(int value) {
+    return "{ \"classname\" \"worldspawn\" \"q3map_surfacelight textures/baseq3test/light_square\" \"0 1 1 1\" }\n"
+           "{ \"classname\" \"light\" \"origin\" \"0 0 200\" \"light\" \"" +
+           std::to_string(value) + "\" }\n";
+}
+double radianceOfPoint(int value) { return kTestWallAlbedo * 7500 * value / (kHeight * kHeight) / 63.75; }
+double radianceOfEmitter() { return kTestWallAlbedo * squareLightRoom::computeIrradiance(kSeen, kUp) / 63.75; }
+
+double meanOf(const FloatImage& image) {
+    double sum = 0;
+    for (const float value : image.rgb)
+        sum += value;
+    return sum / static_cast<double>(image.rgb.size());
+}
+
+class LostLightTest : public testing::Test {
+  protected:
+    TestGame m_game;
+    std::unique_ptr<TraceHarness> m_harness;
+
+    void start(const char* lostLights) {
+        m_harness = std::make_unique<TraceHarness>(m_game, Q3RT_BUILD_DIR "/renderer_rt_x86_64.so", kSize, kSize);
+        for (const auto& [name, value] : {std::pair("rt_backend", "compute"),
+                                          {"rt_accumulate", "1"},
+                                          {"rt_ambient", "0"},
+                                          {"rt_numRandomDL", "0"},
+                                          {"rt_lostLights", lostLights}})
+            m_harness->set(name, value);
+        m_harness->loadMap(kMap);
+    }
+    double radiance(int frames = kFrames) { return meanOf(m_harness->radiance(kDown, frames)); }
+};
+
+TEST_F(LostLightTest, StandsInForWhatScriptsSay) {
+    m_game.addText(kFile, lightText(100));
+    start("1");
+    EXPECT_NEAR(radiance(), radianceOfPoint(100), 0.01 * radianceOfPoint(100));
+}
+
+TEST_F(LostLightTest, IsReloadedAtOnce) {
+    m_game.addText(kFile, lightText(100));
+    start("1");
+    radiance();
+    m_game.addText(kFile, lightText(250));
+    ASSERT_TRUE(m_harness->engine().runCommand({"rt_reloadLights"}));
+    EXPECT_NEAR(radiance(), radianceOfPoint(250), 0.01 * radianceOfPoint(250));
+}
+
+TEST_F(LostLightTest, IsSwitchedOffAndOn) {
+    m_game.addText(kFile, lightText(100));
+    start("0");
+    constexpr int kMoreFrames = 64; // of an emitter's noise
+    EXPECT_NEAR(radiance(kMoreFrames), radianceOfEmitter(), 0.03 * radianceOfEmitter());
+    m_harness->engine().cvars.set("rt_lostLights", "1");
+    EXPECT_NEAR(radiance(), radianceOfPoint(100), 0.01 * radianceOfPoint(100));
+}
+
+TEST_F(LostLightTest, DamagedItIsLeftOut) {
+    m_game.addText(kFile, lightText(100) + "{ \"classname\" \"light\" }");
+    start("1");
+    constexpr int kMoreFrames = 64;
+    EXPECT_NEAR(radiance(kMoreFrames), radianceOfEmitter(), 0.03 * radianceOfEmitter());
+}
+
+TEST(LostLightFile, SaysWhatIsWrong) {
+    TestGame game;
+    TextureLibrary textures(game, {});
+    MaterialLibrary materials(game, textures, {});
+    const auto world = loadWorld(game, kMap, materials, {});
+    EXPECT_EQ(lostLightFile(*world), kFile);
+    std::string said;
+    setLogSink([&](LogLevel, std::string_view line) { said = line; });
+    EXPECT_FALSE(readLostLights(game, *world));
+    EXPECT_NE(said.find("q3rt relight --map room_square_light"), std::string::npos) << said;
+    game.addText(kFile, "{\n\"light\" }");
+    EXPECT_FALSE(readLostLights(game, *world));
+    EXPECT_NE(said.find(std::string(kFile) + ", line 2"), std::string::npos) << said;
+    game.addText(kFile, "{ \"classname\" \"worldspawn\" \"_lightmap\" \"0123\" }");
+    EXPECT_FALSE(readLostLights(game, *world));
+    EXPECT_NE(said.find("another bake"), std::string::npos) << said;
+    said.clear();
+    game.addText(kFile, "{ \"classname\" \"worldspawn\" \"_lightmap\" \"" + lightmapFingerprint(world->bsp) + "\" }");
+    EXPECT_TRUE(readLostLights(game, *world));
+    EXPECT_EQ(said, "");
+    setLogSink({});
+}
+
+} // namespace
+} // namespace q3rt
