@@ -24,6 +24,7 @@ ReportNumbers readNumbers(const RtReport& report, const std::vector<std::string>
     }
     for (size_t i = 0; i < passes.size(); ++i)
         out.counts.push_back({passes[i], report.nonFinite[i]});
+    std::copy(std::begin(report.work), std::end(report.work), out.work.begin());
     return out;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // What a frame's shaders have counted, read when the frame is done: some frames later, so that nothing waits.
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct ReportNumbers {
         uint64_t nonFinite = 0;
     };
     std::vector<Count> counts; ///< of each checked pass
+    std::array<uint32_t, kWorkKindCount> work{};
 };
 
 class FrameReport {

@@ -104,7 +104,8 @@ void TraceRenderer::beginReport(FrameGraph& graph, ViewResources& resources) {
     const bool isRead = settings().q3rt_wantStats || m_settings.rt_printPerfStats || engine().wantsWindow();
     m_check.reset();
     if (m_settings.rt_checkFinite) m_check.emplace(FiniteCheck{*m_report, *m_pictures});
-    if (!m_check && !(accumulates() && isRead)) return;
+    resources.countsWork = m_settings.rt_countWork != 0;
+    if (!m_check && !resources.countsWork && !(accumulates() && isRead)) return;
     resources.report = m_reportBuffer ? m_reportBuffer : m_report->addClear(graph);
     resources.check = m_check ? &*m_check : nullptr;
 }
@@ -139,11 +140,22 @@ std::string TraceRenderer::extraStats() const {
                            m_classCounts[i].builds);
     text += "}";
     if (m_settings.rt_targetMs > 0) text += formatText(",\"level\":%zu", m_pace.level());
+    if (m_scene && m_scene->hasWorld()) text += formatText(",\"other_lights\":%zu", m_scene->lights()->others().size());
+    if (!m_views.empty()) {
+        const uint32_t flags = m_views.back().frame.flags;
+        text += formatText(",\"looks_for\":{\"layers\":%d,\"near_entities\":%d,\"several_skies\":%d}",
+                           (flags & kFrameLayers) != 0, (flags & kFrameNearEntities) != 0,
+                           (flags & kFrameSkySurfaces) != 0);
+    }
     const ReportNumbers& report = m_report->latest();
     if (m_lastBuffers && m_lastBuffers->sums)
         text += formatText(",\"samples\":%u", m_lastBuffers->sums->sampleNumber + 1);
     if (report.hasError)
         text += formatText(",\"expected_ssim\":%.6f,\"standard_error\":%.8f", report.likeness, report.error);
+    if (m_settings.rt_countWork)
+        text += formatText(",\"work\":{\"any_hit\":%u,\"layers\":%u,\"turned_rays\":%u,\"sky_looks\":%u}",
+                           report.work[kWorkAnyHit], report.work[kWorkLayer], report.work[kWorkTurn],
+                           report.work[kWorkSky]);
     if (report.counts.empty()) return text;
     text += ",\"nonfinite\":{";
     for (size_t i = 0; i < report.counts.size(); ++i)

@@ -8,6 +8,7 @@ void addDirect(FrameGraph& graph, ViewResources& resources, const ViewWork& work
         "direct",
         [&](PassBuilder& pass) {
             pass.read(resources.structures, work.pipelines.structureRead());
+            if (resources.countsWork) resources.report = pass.write(resources.report, work.pipelines.bufferWrite());
             pass.read(resources.pixels, work.pipelines.bufferRead());
             resources.irradiance = pass.write(resources.irradiance, work.pipelines.bufferWrite());
             resources.ambient = pass.write(resources.ambient, work.pipelines.bufferWrite());

@@ -2,6 +2,7 @@
 #ifndef Q3RT_RT_ACCEPT_GLSL
 #define Q3RT_RT_ACCEPT_GLSL
 #include "rt/material.glsl"
+#include "rt/work.glsl"
 
 // Geometric facts of a candidate triangle, without its attributes.
 struct Candidate {
@@ -35,6 +36,7 @@ bool showsFrom(RtSurface surface, vec3 facing, vec3 direction)
 // the light, are stopped from both sides, as by the solid class.
 bool acceptHit(uint instance, uint triangle, vec2 barycentric, float t, vec3 direction)
 {
+    countWork(kWorkAnyHit);
     Candidate candidate = findCandidate(instance, triangle);
     if ((candidate.surface.flags & kSurfaceTested) == 0u)
         return true;
@@ -47,6 +49,7 @@ bool acceptHit(uint instance, uint triangle, vec2 barycentric, float t, vec3 dir
 // one along the ray.
 float layerDistance(uint instance, uint triangle, vec2 barycentric, float t, vec3 origin, vec3 direction)
 {
+    countWork(kWorkLayer);
     Candidate candidate = findCandidate(instance, triangle);
     float size = length(candidate.facing);
     if (size == 0.0 || !showsFrom(candidate.surface, candidate.facing, direction))

@@ -2,6 +2,7 @@
 #ifndef Q3RT_RT_SKY_GLSL
 #define Q3RT_RT_SKY_GLSL
 #include "rt/material.glsl"
+#include "rt/work.glsl"
 
 struct SkyFace {
     uint side; // 0..5: rt lf bk ft up dn
@@ -50,6 +51,7 @@ VertexIn cloudVertex(vec3 direction, float height)
 // Unit directions of the pixel and of its neighbours.
 vec3 skyColor(RtSky sky, vec3 direction, vec3 directionX, vec3 directionY)
 {
+    countWork(kWorkSky);
     SkyFace face = findSkyFace(direction);
     vec3 color = vec3(0.0);
     if (sky.hasBox != 0u) {

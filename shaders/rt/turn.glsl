@@ -6,6 +6,7 @@
 #include "lib/offset.glsl"
 #include "lib/ray.glsl"
 #include "rt/scene.glsl"
+#include "rt/work.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer PortalTable { RtPortal at[]; };
 
@@ -40,6 +41,7 @@ CameraRay makeCameraRay(vec2 at)
 // of one point, once for each of the two origins.
 void beginBehind(inout CameraRay ray, vec3 oldOrigin, float t, float cosine)
 {
+    countWork(kWorkTurn);
     ray.from = t + sameDistanceStep(2.0 * t, length(oldOrigin) + length(ray.origin), cosine);
     ray.solidMask = kMaskSolidMirror;
     ray.layerMask = kMaskLayerMirror;

@@ -12,11 +12,19 @@ SHARED_CONST kReportError = 1u;    // standard error of a tile's shown luminance
 SHARED_CONST kReportSumCount = 2u;
 SHARED_CONST kReportCounterCount = 32u;
 
+// What only some scenes require.
+SHARED_CONST kWorkAnyHit = 0u;    // hits on surfaces that may let a ray through at this point
+SHARED_CONST kWorkLayer = 1u;     // hits on blended surfaces and decals
+SHARED_CONST kWorkTurn = 2u;      // rays turned by mirrors, portals, water, glass
+SHARED_CONST kWorkSky = 3u;       // looks at a sky
+SHARED_CONST kWorkKindCount = 4u;
+
 struct RtReport {
     uint tileCount;
     uint low[kReportSumCount]; // words of the sums over tiles
     uint high[kReportSumCount];
     uint nonFinite[kReportCounterCount]; // by counter: numbers that are none, and infinities
+    uint work[kWorkKindCount];           // by kWork*, modulo 2^32
 };
 
 // Counts in a buffer of structures of so many 32-bit words, of which those with a bit in `floats` are numbers.

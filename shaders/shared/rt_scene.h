@@ -172,6 +172,7 @@ SHARED_CONST kFrameClampLight = 0x100u;  // the picture shows light as the engin
 SHARED_CONST kFrameHistory = 0x200u;     // guides and pasts are wanted
 SHARED_CONST kFrameKeepRadiance = 0x400u; // the composite's radiance is wanted
 SHARED_CONST kFrameLinear = 0x800u;       // colours are decoded to light
+SHARED_CONST kFrameCountWork = 0x10000u;  // into RtReport::work
 
 struct RtFrame {
     SHARED_ADDRESS instances;
