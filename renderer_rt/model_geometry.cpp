@@ -13,7 +13,7 @@ namespace {
 constexpr VkBufferUsageFlags kModelUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                            VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
                                            VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
-constexpr size_t kAlignment = 16; ///< bytes, of each table in a part's memory
+constexpr size_t kAlignment = 64; ///< bytes, of each table in a part's memory: whole nodes in cache lines
 
 /// Tables one after the other in one buffer.
 class TableWriter {
@@ -34,9 +34,9 @@ class TableWriter {
 
 } // namespace
 
-ModelPart& ModelGeometry::find(const ModelSurface* source, bool opaque, std::span<const Vertex> vertices,
+ModelPart& ModelGeometry::find(const ModelSurface* source, SurfaceClass surfaceClass, std::span<const Vertex> vertices,
                                std::span<const uint32_t> indices) {
-    std::unique_ptr<ModelPart>& part = m_parts[{source, opaque}];
+    std::unique_ptr<ModelPart>& part = m_parts[{source, surfaceClass}];
     if (part) return *part;
     part = std::make_unique<ModelPart>();
     const uint32_t low = *std::min_element(indices.begin(), indices.end());
@@ -45,12 +45,12 @@ ModelPart& ModelGeometry::find(const ModelSurface* source, bool opaque, std::spa
     for (const uint32_t triangle : sortTriangles(vertices, indices))
         for (size_t corner = 0; corner < 3; ++corner)
             ordered.push_back(indices[3 * triangle + corner] - low);
-    fill(*part, opaque, vertices.subspan(low, high - low + 1), ordered);
+    fill(*part, surfaceClass, vertices.subspan(low, high - low + 1), ordered);
     m_new.push_back(part.get());
     return *part;
 }
 
-void ModelGeometry::fill(ModelPart& part, bool opaque, std::span<const Vertex> vertices,
+void ModelGeometry::fill(ModelPart& part, SurfaceClass surfaceClass, std::span<const Vertex> vertices,
                          std::span<const uint32_t> indices) {
     const auto triangleCount = static_cast<uint32_t>(indices.size() / 3);
     const std::vector<uint32_t> surfaceOfTriangle(triangleCount, 0);
@@ -59,7 +59,8 @@ void ModelGeometry::fill(ModelPart& part, bool opaque, std::span<const Vertex> v
     const size_t surfacesAt = tables.add(std::span<const uint32_t>(surfaceOfTriangle));
     size_t nodesAt = 0, trianglesAt = 0;
     if (!usesStructures(m_backend)) {
-        const TreeData tree = buildTree(vertices, indices, opaque, true);
+        const TreePart whole{vertices, indices, surfaceClass};
+        const TreeData tree = buildTree({&whole, 1}, true);
         nodesAt = tables.add(std::span<const BvhNode>(tree.nodes));
         trianglesAt = tables.add(std::span<const BvhTriangle>(tree.triangles));
         part.tree.bounds = tree.bounds;
@@ -77,7 +78,7 @@ void ModelGeometry::fill(ModelPart& part, bool opaque, std::span<const Vertex> v
                      .vertexCount = static_cast<uint32_t>(vertices.size()),
                      .indices = base + indicesAt,
                      .triangleCount = triangleCount,
-                     .opaque = opaque};
+                     .opaque = isOpaqueClass(surfaceClass)};
     if (usesStructures(m_backend))
         part.structure = AccelerationStructure::makeBottom(m_device, {&part.geometry, 1},
                                                            {.preference = BuildPreference::FastTrace, .name = "model"});

@@ -26,17 +26,18 @@ class ModelGeometry {
         : m_device(device)
         , m_backend(backend) {}
     /// `indices` absolute in `vertices`, which are used at the first call for this surface only. The address stays.
-    ModelPart& find(const ModelSurface* source, bool opaque, std::span<const Vertex> vertices,
+    ModelPart& find(const ModelSurface* source, SurfaceClass surfaceClass, std::span<const Vertex> vertices,
                     std::span<const uint32_t> indices);
     /// Those made since the last call: their structures want a build in this frame.
     std::vector<ModelPart*> takeNew();
 
   private:
-    void fill(ModelPart& part, bool opaque, std::span<const Vertex> vertices, std::span<const uint32_t> indices);
+    void fill(ModelPart& part, SurfaceClass surfaceClass, std::span<const Vertex> vertices,
+              std::span<const uint32_t> indices);
 
     Device& m_device;
     Backend m_backend;
-    std::map<std::pair<const ModelSurface*, bool>, std::unique_ptr<ModelPart>> m_parts;
+    std::map<std::pair<const ModelSurface*, SurfaceClass>, std::unique_ptr<ModelPart>> m_parts;
     std::vector<ModelPart*> m_new;
 };
 

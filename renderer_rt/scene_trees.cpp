@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "gpu/device.hpp"
+#include "shaders/shared/rt_scene.h"
 
 namespace q3rt {
 
@@ -27,27 +28,70 @@ bool isFinite(const mat4& m) {
     return true;
 }
 
-} // namespace
-
-TreeData buildTree(std::span<const Vertex> vertices, std::span<const uint32_t> indices, bool opaque, bool lasting) {
-    std::vector<vec3> positions;
-    positions.reserve(indices.size());
-    for (const uint32_t index : indices)
-        positions.push_back(vertices[index].position);
-    const std::vector<Bounds> boxes = triangleBounds(positions);
-    Bvh bvh = lasting ? buildSah(boxes) : buildMorton(boxes);
-    const std::vector<uint8_t> flags(opaque ? 0 : indices.size() / 3, 0);
-    std::vector<BvhTriangle> triangles = leafTriangles(bvh, positions, flags);
-    return {.nodes = std::move(bvh.nodes), .triangles = std::move(triangles), .bounds = bvh.bounds};
+uint8_t groupOf(SurfaceClass surfaceClass) {
+    const bool other = surfaceClass == SurfaceClass::Layer || surfaceClass == SurfaceClass::Sky;
+    return static_cast<uint8_t>(other ? kBvhOtherGroup : kBvhSolidGroup);
 }
 
-size_t StaticTrees::add(std::span<const Vertex> vertices, std::span<const uint32_t> indices, bool opaque) {
-    const TreeData built = buildTree(vertices, indices, opaque, true);
+/// Groups that rays of these masks look for.
+uint8_t groupsOfMask(uint32_t mask) {
+    return static_cast<uint8_t>(((mask & kMasksOfSolids) != 0 ? kBvhSolidGroup : 0) |
+                                ((mask & ~kMasksOfSolids) != 0 ? kBvhOtherGroup : 0));
+}
+
+uint32_t flagsOf(SurfaceClass surfaceClass, size_t part) {
+    return (isOpaqueClass(surfaceClass) ? kBvhTriangleOpaque : 0u) |
+           (surfaceClass == SurfaceClass::Solid ? kBvhTriangleCullBack : 0u) |
+           static_cast<uint32_t>(part) << kBvhPartShift;
+}
+
+BvhInstance describe(const TreeInstance& instance, const mat4& modelFromWorld) {
+    BvhInstance out{};
+    for (int row = 0; row < 3; ++row)
+        out.modelFromWorld[row] = vec4(modelFromWorld[0][row], modelFromWorld[1][row], modelFromWorld[2][row],
+                                       instance.worldFromModel[3][row]);
+    out.nodes = instance.tree.nodes;
+    out.triangles = instance.tree.triangles;
+    out.customIndex = instance.customIndex;
+    for (size_t part = 0; part < instance.masks.size(); ++part) {
+        out.mask |= instance.masks[part];
+        out.partMasks[part / 4] |= uint32_t{instance.masks[part]} << (8 * (part % 4));
+    }
+    return out;
+}
+
+} // namespace
+
+TreeData buildTree(std::span<const TreePart> parts, bool lasting) {
+    std::vector<vec3> positions;
+    std::vector<TriangleLabel> labels;
+    std::vector<uint8_t> groups;
+    for (size_t p = 0; p < parts.size(); ++p) {
+        for (const uint32_t index : parts[p].indices)
+            positions.push_back(parts[p].vertices[index].position);
+        const auto count = static_cast<uint32_t>(parts[p].indices.size() / 3);
+        for (uint32_t number = 0; number < count; ++number)
+            labels.push_back({number, flagsOf(parts[p].surfaceClass, p)});
+        groups.insert(groups.end(), count, groupOf(parts[p].surfaceClass));
+    }
+    const std::vector<Bounds> boxes = triangleBounds(positions);
+    const BvhBuildSettings settings{.groups = groups};
+    Bvh bvh = lasting ? buildSah(boxes, settings) : buildMorton(boxes, settings);
+    std::vector<BvhTriangle> triangles = leafTriangles(bvh, positions, labels);
+    return {.nodes = std::move(bvh.nodes),
+            .triangles = std::move(triangles),
+            .bounds = bvh.bounds,
+            .rejectedCount = bvh.rejectedCount};
+}
+
+size_t StaticTrees::add(std::span<const TreePart> parts) {
+    const TreeData built = buildTree(parts, true);
     m_trees.push_back({.nodes = m_nodeList.size() * sizeof(BvhNode),
                        .triangles = m_triangleList.size() * sizeof(BvhTriangle),
                        .bounds = built.bounds});
     m_nodeList.insert(m_nodeList.end(), built.nodes.begin(), built.nodes.end());
     m_triangleList.insert(m_triangleList.end(), built.triangles.begin(), built.triangles.end());
+    m_rejectedCount += built.rejectedCount;
     return m_trees.size() - 1;
 }
 
@@ -65,37 +109,29 @@ void StaticTrees::upload(Device& device, Uploader& uploader) {
     m_triangleList = {};
 }
 
-TreeAddress sendMovingTree(GrowingBuffer& stream, std::span<const Vertex> vertices, std::span<const uint32_t> indices,
-                           bool opaque) {
-    const TreeData built = buildTree(vertices, indices, opaque, false);
-    return {.nodes = stream.append(std::span<const BvhNode>(built.nodes)).address,
+TreeAddress sendMovingTree(GrowingBuffer& stream, std::span<const TreePart> parts) {
+    const TreeData built = buildTree(parts, false);
+    return {.nodes = stream.append(std::span<const BvhNode>(built.nodes), sizeof(BvhNode)).address,
             .triangles = stream.append(std::span<const BvhTriangle>(built.triangles)).address,
             .bounds = built.bounds};
 }
 
 SceneTree sendSceneTree(GrowingBuffer& stream, std::span<const TreeInstance> instances) {
     std::vector<Bounds> boxes;
+    std::vector<uint8_t> groups;
     std::vector<BvhInstance> placed;
     for (const TreeInstance& instance : instances) {
         const mat4 inverse(glm::inverse(glm::dmat4(instance.worldFromModel)));
         if (instance.tree.bounds.empty() || !isFinite(inverse)) continue;
-        BvhInstance out{};
-        for (int row = 0; row < 3; ++row)
-            out.modelFromWorld[row] =
-                vec4(inverse[0][row], inverse[1][row], inverse[2][row], instance.worldFromModel[3][row]);
-        out.nodes = instance.tree.nodes;
-        out.triangles = instance.tree.triangles;
-        out.customIndex = instance.customIndex;
-        out.mask = instance.mask;
-        out.cullBack = instance.cullBack ? 1 : 0;
-        placed.push_back(out);
+        placed.push_back(describe(instance, inverse));
         boxes.push_back(transformBounds(instance.tree.bounds, instance.worldFromModel));
+        groups.push_back(groupsOfMask(placed.back().mask));
     }
-    const Bvh bvh = buildSah(boxes, {.maxLeafItems = 1});
+    const Bvh bvh = buildSah(boxes, {.maxLeafItems = 1, .groups = groups});
     std::vector<BvhInstance> ordered;
     for (const uint32_t item : bvh.order)
         ordered.push_back(placed[item]);
-    return {.nodes = stream.append(std::span<const BvhNode>(bvh.nodes)).address,
+    return {.nodes = stream.append(std::span<const BvhNode>(bvh.nodes), sizeof(BvhNode)).address,
             .instances = stream.append(std::span<const BvhInstance>(ordered)).address};
 }
 

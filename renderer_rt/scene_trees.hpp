@@ -1,15 +1,20 @@
 #pragma once
 // The back end `compute`: our own trees in place of the driver's structures. Trees of the map and its inline models are
-// built once; what moves gets a quick tree each frame; a small tree over all instances is built each frame.
+// built once; what moves gets a quick tree each frame; a small tree over all instances is built each frame. One tree
+// holds everything that moves as one, of all surface classes: its parts stand for the driver's structures.
 
+#include <array>
 #include <vector>
 
 #include "accel/bvh.hpp"
 #include "gpu/growing_buffer.hpp"
 #include "gpu/uploader.hpp"
+#include "renderer_rt/surface_class.hpp"
 #include "shaders/shared/vertex.h"
 
 namespace q3rt {
+
+static_assert(kSurfaceClassCount <= kBvhMostParts);
 
 /// A tree on the GPU.
 struct TreeAddress {
@@ -21,38 +26,46 @@ struct TreeAddress {
 struct TreeData {
     std::vector<BvhNode> nodes;
     std::vector<BvhTriangle> triangles;
-    Bounds bounds; ///< model space
+    Bounds bounds;              ///< model space
+    uint32_t rejectedCount = 0; ///< triangles that are not finite or too far away
 };
-/// `indices` absolute in `vertices`; triangles keep their numbers. A lasting tree is better and takes longer.
-TreeData buildTree(std::span<const Vertex> vertices, std::span<const uint32_t> indices, bool opaque, bool lasting);
+
+/// Triangles of one class: what the driver's back ends have a structure for. Triangle i of a part keeps that number.
+struct TreePart {
+    std::span<const Vertex> vertices;
+    std::span<const uint32_t> indices; ///< absolute in `vertices`
+    SurfaceClass surfaceClass = SurfaceClass::Solid;
+};
+/// A lasting tree is better and takes longer. At most kBvhMostParts parts.
+TreeData buildTree(std::span<const TreePart> parts, bool lasting);
 
 /// Trees that stay: gathered, then uploaded at once.
 class StaticTrees {
   public:
-    /// `indices` absolute in `vertices`; triangles keep their numbers. Returns the tree's number.
-    size_t add(std::span<const Vertex> vertices, std::span<const uint32_t> indices, bool opaque);
+    /// Returns the tree's number.
+    size_t add(std::span<const TreePart> parts);
     void upload(Device& device, Uploader& uploader);
     const TreeAddress& get(size_t tree) const { return m_trees[tree]; }
+    uint32_t rejectedCount() const { return m_rejectedCount; }
     VkDeviceSize bytes() const { return m_nodes.size() + m_triangles.size(); }
 
   private:
     std::vector<BvhNode> m_nodeList;
     std::vector<BvhTriangle> m_triangleList;
     std::vector<TreeAddress> m_trees; ///< offsets in bytes until upload()
+    uint32_t m_rejectedCount = 0;
     Buffer m_nodes, m_triangles;
 };
 
 /// A tree for this frame only.
-TreeAddress sendMovingTree(GrowingBuffer& stream, std::span<const Vertex> vertices, std::span<const uint32_t> indices,
-                           bool opaque);
+TreeAddress sendMovingTree(GrowingBuffer& stream, std::span<const TreePart> parts);
 
 /// One placed tree.
 struct TreeInstance {
     TreeAddress tree;
     mat4 worldFromModel{1.0f};
-    uint32_t customIndex = 0;
-    uint8_t mask = 0;
-    bool cullBack = false;
+    uint32_t customIndex = 0; ///< of part 0; the others follow
+    std::array<uint8_t, kBvhMostParts> masks{};
 };
 
 struct SceneTree {

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "base/log.hpp"
 #include "gpu/device.hpp"
 #include "renderer_rt/triangle_sort.hpp"
 
@@ -88,16 +89,26 @@ StaticGeometry::StaticGeometry(Device& device, Uploader& uploader, const World& 
 
 void StaticGeometry::buildTrees(Device& device, Uploader& uploader, const World& world,
                                 std::span<const uint32_t> indices) {
-    size_t first = 0;
-    for (const StaticPart& part : m_parts) {
-        const size_t count = size_t{3} * part.triangleCount;
-        m_trees.add(world.vertices, indices.subspan(first, count), isOpaqueClass(part.surfaceClass));
-        first += count;
+    size_t firstIndex = 0;
+    for (size_t p = 0; p < m_parts.size();) {
+        std::vector<TreePart> parts;
+        const size_t first = p;
+        for (; p < m_parts.size() && m_parts[p].model == m_parts[first].model; ++p) {
+            const size_t count = size_t{3} * m_parts[p].triangleCount;
+            parts.push_back({world.vertices, indices.subspan(firstIndex, count), m_parts[p].surfaceClass});
+            firstIndex += count;
+        }
+        const size_t tree = m_trees.add(parts);
+        for (size_t i = first; i < p; ++i) {
+            m_parts[i].tree = tree;
+            m_parts[i].partOfTree = i - first;
+        }
     }
     m_trees.upload(device, uploader);
     uploader.flush();
-    for (size_t p = 0; p < m_parts.size(); ++p)
-        m_parts[p].tree = m_trees.get(p);
+    if (m_trees.rejectedCount() > 0)
+        logLine(LogLevel::Warning, "%s: %u triangles are not finite or beyond %g units and are not traced",
+                world.name.c_str(), m_trees.rejectedCount(), static_cast<double>(kBvhFarthest));
 }
 
 void StaticGeometry::buildStructures(Device& device, uint32_t vertexCount) {

@@ -21,14 +21,17 @@ struct StaticPart {
     uint32_t triangleCount = 0;
     VkDeviceAddress indices = 0, surfaceOfTriangle = 0;
     AccelerationStructure structure; ///< back ends of the driver
-    TreeAddress tree;                ///< back end `compute`
+    size_t tree = 0;                 ///< back end `compute`: in StaticGeometry::tree()
+    size_t partOfTree = 0;
 };
 
 class StaticGeometry {
   public:
     StaticGeometry(Device& device, Uploader& uploader, const World& world, const MaterialLibrary& materials,
                    Backend backend);
+    /// Those of one model stand together.
     const std::vector<StaticPart>& parts() const { return m_parts; }
+    const TreeAddress& tree(size_t number) const { return m_trees.get(number); }
     VkDeviceAddress vertices() const { return m_vertices.address(); }
     uint32_t triangleCount() const { return m_triangleCount; }
     VkDeviceSize bytes() const;

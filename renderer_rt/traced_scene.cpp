@@ -136,27 +136,46 @@ void TracedScene::makeInstances(const ViewGeometry& geometry, TracedView& view) 
     view.top = &m_structures.takeTop(view.instanceCount);
 }
 
+TreePart TracedScene::dynamicTreePart(const ViewGeometry& geometry, int number) const {
+    const DynamicPart& part = m_tables.parts[static_cast<size_t>(number)];
+    return {std::span(geometry.vertices).subspan(part.firstVertex, part.vertexCount),
+            std::span(m_tables.indices).subspan(part.firstIndex, size_t{3} * part.triangleCount), part.surfaceClass};
+}
+
 void TracedScene::makeTrees(const ViewGeometry& geometry, TracedView& view) {
     m_treeInstances.clear();
-    for (size_t i = 0; i < m_tables.sources.size(); ++i) {
-        const ViewTables::Source& source = m_tables.sources[i];
+    const std::vector<ViewTables::Source>& sources = m_tables.sources;
+    // Parts of one tree follow one another.
+    for (size_t i = 0; i < sources.size();) {
+        const ViewTables::Source& first = sources[i];
         TreeInstance instance;
-        if (source.modelPart) {
-            instance.tree = source.modelPart->tree;
-        } else if (source.staticPart >= 0) {
-            instance.tree = m_statics->parts()[static_cast<size_t>(source.staticPart)].tree;
-        } else {
-            const DynamicPart& part = m_tables.parts[static_cast<size_t>(source.dynamicPart)];
-            instance.tree =
-                sendMovingTree(m_stream, std::span(geometry.vertices).subspan(part.firstVertex, part.vertexCount),
-                               std::span(m_tables.indices).subspan(part.firstIndex, size_t{3} * part.triangleCount),
-                               isOpaqueClass(part.surfaceClass));
-        }
-        instance.worldFromModel = geometry.entities[source.entity].worldFromModel;
+        instance.worldFromModel = geometry.entities[first.entity].worldFromModel;
         instance.customIndex = static_cast<uint32_t>(i);
-        instance.mask = source.mask;
-        instance.cullBack = source.surfaceClass == SurfaceClass::Solid;
+        size_t part = 0;
+        if (first.modelPart) {
+            instance.tree = first.modelPart->tree;
+            instance.masks[part++] = first.mask;
+        } else if (first.staticPart >= 0) {
+            const auto& parts = m_statics->parts();
+            const size_t tree = parts[static_cast<size_t>(first.staticPart)].tree;
+            instance.tree = m_statics->tree(tree);
+            for (; i + part < sources.size() && sources[i + part].staticPart >= 0 &&
+                   sources[i + part].entity == first.entity &&
+                   parts[static_cast<size_t>(sources[i + part].staticPart)].tree == tree;
+                 ++part)
+                instance.masks[part] = sources[i + part].mask;
+        } else {
+            std::vector<TreePart> parts;
+            for (; i + part < sources.size() && sources[i + part].dynamicPart >= 0 &&
+                   sources[i + part].entity == first.entity;
+                 ++part) {
+                parts.push_back(dynamicTreePart(geometry, sources[i + part].dynamicPart));
+                instance.masks[part] = sources[i + part].mask;
+            }
+            instance.tree = sendMovingTree(m_stream, parts);
+        }
         m_treeInstances.push_back(instance);
+        i += part;
     }
     const SceneTree tree = sendSceneTree(m_stream, m_treeInstances);
     view.instanceCount = static_cast<uint32_t>(m_treeInstances.size());

@@ -58,6 +58,7 @@ class TracedScene {
     VkDeviceAddress send(const std::vector<T>& items);
     void resolveDynamic(const ViewGeometry& geometry, TracedView& view);
     void makeInstances(const ViewGeometry& geometry, TracedView& view);
+    TreePart dynamicTreePart(const ViewGeometry& geometry, int number) const;
     void makeTrees(const ViewGeometry& geometry, TracedView& view);
     void sendFogs(RtFrame& frame);
     void sendLights(std::span<const SceneLight> lights, RtFrame& frame);

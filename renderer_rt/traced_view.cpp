@@ -165,7 +165,7 @@ void ViewTableBuilder::addModelPart(const ViewGeometry& geometry, const EntitySu
     const EntityRecord& record = geometry.entities[surface.entity];
     const uint8_t mask = instanceMask(surfaceClass, visibilityOf(record.flags));
     if (mask == 0) return;
-    const ModelPart& part = models.find(surface.source, isOpaqueClass(surfaceClass), geometry.vertices,
+    const ModelPart& part = models.find(surface.source, surfaceClass, geometry.vertices,
                                         std::span(geometry.indices).subspan(surface.firstIndex, surface.indexCount));
     RtInstance instance{};
     instance.vertices = part.geometry.vertices;

@@ -1,69 +1,68 @@
 #include <algorithm>
 
-#include "accel/bvh_tree.hpp"
+#include "accel/bvh_node.hpp"
 
 namespace q3rt {
 namespace {
 
-float halfArea(const vec3& mins, const vec3& maxs) {
-    const vec3 size = maxs - mins;
+float halfArea(const Bounds& box) {
+    const vec3 size = box.maxs - box.mins;
     return size.x < 0 ? 0 : size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
 } // namespace
 
 float surfaceAreaCost(const Bvh& bvh, float traversalCost) {
-    const float rootArea = bvh.bounds.empty() ? 0 : halfArea(bvh.bounds.mins, bvh.bounds.maxs);
+    const float rootArea = bvh.bounds.empty() ? 0 : halfArea(bvh.bounds);
     if (rootArea <= 0) return traversalCost;
     double cost = traversalCost;
-    for (const BvhNode& node : bvh.nodes) {
-        const double left = halfArea(node.leftMins, node.leftMaxs) / rootArea;
-        const double right = halfArea(node.rightMins, node.rightMaxs) / rootArea;
-        cost += left * ((node.left & kBvhLeafBit) ? static_cast<float>(node.leftCount) : traversalCost);
-        cost += right * ((node.right & kBvhLeafBit) ? static_cast<float>(node.rightCount) : traversalCost);
-    }
+    for (const BvhNode& node : bvh.nodes)
+        for (uint32_t slot = 0; slot < kBvhWidth; ++slot) {
+            const double share = halfArea(childBounds(node, slot)) / rootArea;
+            const uint32_t child = node.child[slot];
+            cost += share * ((child & kBvhLeafBit) ? static_cast<float>(leafCount(child)) : traversalCost);
+        }
     return static_cast<float>(cost);
 }
 
 uint32_t depthOf(const Bvh& bvh) {
-    // Depth-first layout: a parent stands before its children, so one forward pass knows every depth.
+    // A parent stands before its children, so one forward pass knows every depth.
     std::vector<uint32_t> depth(bvh.nodes.size(), 1);
     uint32_t deepest = 1;
     for (size_t i = 0; i < bvh.nodes.size(); ++i) {
         deepest = std::max(deepest, depth[i]);
-        for (const uint32_t child : {bvh.nodes[i].left, bvh.nodes[i].right})
+        for (const uint32_t child : bvh.nodes[i].child)
             if (!(child & kBvhLeafBit)) depth[child] = depth[i] + 1;
     }
     return deepest;
 }
 
 float refit(Bvh& bvh, std::span<const Bounds> items) {
-    const float before = surfaceAreaCost(bvh);
-    const auto boxOf = [&](uint32_t child, uint32_t count) {
-        Bounds box;
-        if (child & kBvhLeafBit) {
-            for (uint32_t i = 0; i < count; ++i)
-                box.add(items[bvh.order[(child & ~kBvhLeafBit) + i]]);
-        } else {
-            const BvhNode& node = bvh.nodes[child];
-            box.add(Bounds{node.leftMins, node.leftMaxs});
-            box.add(Bounds{node.rightMins, node.rightMaxs});
-        }
-        return box;
-    };
-    // Children stand after their parent: backwards, every child is ready.
+    std::vector<Box4> whole(bvh.nodes.size());
+    float cost = 0;
+    // Children stand behind their parent: backwards, every child is ready.
     for (size_t i = bvh.nodes.size(); i-- > 0;) {
         BvhNode& node = bvh.nodes[i];
-        const Bounds left = boxOf(node.left, node.leftCount), right = boxOf(node.right, node.rightCount);
-        node.leftMins = left.mins;
-        node.leftMaxs = left.maxs;
-        node.rightMins = right.mins;
-        node.rightMaxs = right.maxs;
+        Box4 box[kBvhWidth];
+        for (uint32_t slot = 0; slot < kBvhWidth; ++slot) {
+            const uint32_t child = node.child[slot];
+            const bool leaf = (child & kBvhLeafBit) != 0;
+            if (leaf) {
+                const uint32_t first = leafFirst(child), end = first + leafCount(child);
+                for (uint32_t item = first; item < end; ++item)
+                    box[slot].add(Box4(items[bvh.order[item]]));
+            } else {
+                box[slot] = whole[child];
+            }
+            cost += box[slot].halfArea() * (leaf ? static_cast<float>(leafCount(child)) : 1.0f);
+            whole[i].add(box[slot]);
+        }
+        repackBoxes(node, box);
     }
     bvh.bounds = {};
-    bvh.bounds.add(Bounds{bvh.nodes[0].leftMins, bvh.nodes[0].leftMaxs});
-    bvh.bounds.add(Bounds{bvh.nodes[0].rightMins, bvh.nodes[0].rightMaxs});
-    return surfaceAreaCost(bvh) / before;
+    if (!bvh.order.empty()) bvh.bounds = {whole[0].low(), whole[0].high()};
+    const float area = whole[0].halfArea();
+    return (1.0f + (area > 0 ? cost / area : 0.0f)) / bvh.builtCost;
 }
 
 std::vector<Bounds> triangleBounds(std::span<const vec3> positions) {
@@ -80,12 +79,13 @@ std::vector<Bounds> triangleBounds(std::span<const vec3> positions) {
 }
 
 std::vector<BvhTriangle> leafTriangles(const Bvh& bvh, std::span<const vec3> positions,
-                                       std::span<const uint8_t> opaque) {
+                                       std::span<const TriangleLabel> labels) {
     std::vector<BvhTriangle> triangles;
     triangles.reserve(bvh.order.size());
-    for (const uint32_t number : bvh.order) {
-        const vec3* corner = &positions[3 * size_t{number}];
-        triangles.push_back({corner[0], number, corner[1], opaque.empty() ? 1u : opaque[number], corner[2], 0});
+    for (const uint32_t triangle : bvh.order) {
+        const vec3* corner = &positions[3 * size_t{triangle}];
+        const TriangleLabel label = labels.empty() ? TriangleLabel{.number = triangle} : labels[triangle];
+        triangles.push_back({corner[0], label.number, corner[1], label.flags, corner[2], 0});
     }
     return triangles;
 }

@@ -129,8 +129,8 @@ Bvh buildMorton(std::span<const Bounds> boxes, const BvhBuildSettings& settings)
     std::vector<BuildItem> sorted(items.size());
     for (size_t i = 0; i < keys.size(); ++i)
         sorted[i] = items[keys[i].item];
-    MortonBuilder builder(sorted, keys, std::max(1u, settings.maxLeafItems));
-    return layOut(builder.build(), 0, sorted, rejected);
+    MortonBuilder builder(sorted, keys, leafLimit(settings));
+    return layOut(builder.build(), 0, sorted, rejected, settings.groups);
 }
 
 } // namespace q3rt

@@ -62,7 +62,7 @@ Bvh buildPairing(std::span<const Bounds> boxes) {
     } else {
         root = level[0].node;
     }
-    return layOut(tree, root, items, rejected);
+    return layOut(tree, root, items, rejected, {});
 }
 
 } // namespace q3rt

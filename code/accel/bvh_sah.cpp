@@ -81,7 +81,7 @@ class SahBuilder {
 
     bool becomesLeaf(const Range& range) const {
         if (range.count <= 1) return true;
-        if (range.count > m_settings.maxLeafItems) return false;
+        if (range.count > leafLimit(m_settings)) return false;
         const float leafCost = static_cast<float>(range.count);
         const float area = range.box.halfArea();
         if (area <= 0) return true;
@@ -173,7 +173,7 @@ Bvh buildSah(std::span<const Bounds> boxes, const BvhBuildSettings& settings) {
     std::vector<BuildItem> items = collectItems(boxes, rejected);
     SahBuilder builder(items, settings);
     const std::vector<BuildNode>& tree = builder.build();
-    return layOut(tree, 0, items, rejected);
+    return layOut(tree, 0, items, rejected, settings.groups);
 }
 
 } // namespace q3rt

@@ -1,5 +1,6 @@
 #pragma once
-// What the builders share: an item with its box, and the tree they assemble before it is laid out depth first.
+// What the builders share: an item with its box, and the binary tree that they assemble before it is collapsed and laid
+// out depth first.
 
 #include <span>
 #include <vector>
@@ -14,7 +15,7 @@ struct BuildItem {
     uint32_t input = 0;
 };
 
-/// Finite items only; counts the others.
+/// Good items only (see bvh.hpp); counts the others.
 std::vector<BuildItem> collectItems(std::span<const Bounds> items, uint32_t& rejectedCount);
 
 /// A child of a node under construction: a range of items with its box.
@@ -29,8 +30,17 @@ struct BuildNode {
     BuildChild child[2];
 };
 
-/// Copies the tree under `root` depth first, near memory order of traversal, and fills Bvh::order and bounds.
-Bvh layOut(const std::vector<BuildNode>& tree, uint32_t root, std::span<const BuildItem> items, uint32_t rejectedCount);
+/// Collapses the tree under `root` to four children a node, lays it out depth first, and fills the rest of the Bvh.
+/// `groups`: see BvhBuildSettings.
+Bvh layOut(const std::vector<BuildNode>& tree, uint32_t root, std::span<const BuildItem> items, uint32_t rejectedCount,
+           std::span<const uint8_t> groups);
+
+/// Items that a leaf may have.
+inline uint32_t leafLimit(const BvhBuildSettings& settings) {
+    return settings.maxLeafItems < 1                   ? 1
+           : settings.maxLeafItems > kBvhMostLeafItems ? kBvhMostLeafItems
+                                                       : settings.maxLeafItems;
+}
 
 /// Splits a range in two for a builder that has no better idea (same centres, too deep): the middle, by order.
 inline uint32_t middleOf(uint32_t first, uint32_t count) { return first + count / 2; }

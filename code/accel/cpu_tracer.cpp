@@ -15,19 +15,27 @@ struct BvhQuery {
     const BvhInstance* instance;
     const CpuTracer* tracer;
     CpuHit hit;
+    bool anyHit;
     bool found;
 };
 
 BvhNode loadBvhNode(BVH_TABLE table, uint index) { return reinterpret_cast<const BvhNode*>(table)[index]; }
-BvhTriangle loadBvhTriangle(BVH_TABLE table, uint index) { return reinterpret_cast<const BvhTriangle*>(table)[index]; }
+uint loadBvhChild(BVH_TABLE table, uint index, uint slot) {
+    return reinterpret_cast<const BvhNode*>(table)[index].child[slot];
+}
+float loadBvhCoordinate(BVH_TABLE table, uint index, uint corner, uint axis) {
+    return (&reinterpret_cast<const BvhTriangle*>(table)[index].corner0.x)[kBvhCornerWords * corner + axis];
+}
 BvhInstance loadBvhInstance(BvhQuery& query, uint) { return *query.instance; }
 
-bool onBvhTriangle(BvhQuery& query, const BvhInstance&, const BvhTriangle& triangle, const TriangleHit& test) {
-    if (triangle.opaque == 0 && query.tracer->accept && !query.tracer->accept(triangle.number, test.barycentric))
-        return false;
+float onBvhTriangle(BvhQuery& query, uint, BVH_TABLE table, uint index, const TriangleHit& test, float tMax) {
+    const BvhTriangle& triangle = reinterpret_cast<const BvhTriangle*>(table)[index];
+    if ((triangle.flags & kBvhTriangleOpaque) == 0 && query.tracer->accept &&
+        !query.tracer->accept(triangle.number, test.barycentric))
+        return tMax;
     query.hit = {test.t, triangle.number, test.barycentric, test.frontFace};
     query.found = true;
-    return true;
+    return query.anyHit ? kBvhFound : test.t;
 }
 
 #include "trace/bvh_traverse.glsl"
@@ -37,33 +45,30 @@ uint64_t addressOf(const BvhNode& node) { return reinterpret_cast<uint64_t>(&nod
 } // namespace
 
 CpuTracer::CpuTracer(std::span<const vec3> positions, std::span<const uint8_t> opaque, const BvhBuildSettings& settings)
-    : m_bvh(buildSah(triangleBounds(positions), settings))
-    , m_triangles(leafTriangles(m_bvh, positions, opaque)) {
+    : m_bvh(buildSah(triangleBounds(positions), settings)) {
+    std::vector<TriangleLabel> labels;
+    for (uint32_t i = 0; i < opaque.size(); ++i)
+        labels.push_back({i, opaque[i] ? kBvhTriangleOpaque : 0});
+    m_triangles = leafTriangles(m_bvh, positions, labels);
     m_instance.modelFromWorld[0] = {1, 0, 0, 0};
     m_instance.modelFromWorld[1] = {0, 1, 0, 0};
     m_instance.modelFromWorld[2] = {0, 0, 1, 0};
     m_instance.nodes = reinterpret_cast<uint64_t>(m_bvh.nodes.data());
     m_instance.triangles = reinterpret_cast<uint64_t>(m_triangles.data());
     m_instance.mask = 1;
-    m_sceneRoot.leftMins = m_bvh.bounds.mins;
-    m_sceneRoot.leftMaxs = m_bvh.bounds.maxs;
-    m_sceneRoot.left = kBvhLeafBit;
-    m_sceneRoot.leftCount = m_bvh.order.empty() ? 0 : 1;
-    m_sceneRoot.rightMins = vec3(std::numeric_limits<float>::max());
-    m_sceneRoot.rightMaxs = -m_sceneRoot.rightMins;
-    m_sceneRoot.right = kBvhLeafBit;
+    m_scene = buildSah({&m_bvh.bounds, 1}, {.maxLeafItems = 1});
 }
 
 bool CpuTracer::closest(const vec3& origin, const vec3& direction, float tMin, float tMax, CpuHit& hit) const {
-    BvhQuery query{&m_instance, this, {}, false};
-    traverseBvh(addressOf(m_sceneRoot), origin, direction, tMin, tMax, 1, false, query);
+    BvhQuery query{&m_instance, this, {}, false, false};
+    traverseBvh(addressOf(m_scene.nodes[0]), origin, direction, tMin, tMax, 1, kBvhSolidGroup, query);
     hit = query.hit;
     return query.found;
 }
 
 bool CpuTracer::occluded(const vec3& origin, const vec3& direction, float tMax) const {
-    BvhQuery query{&m_instance, this, {}, false};
-    traverseBvh(addressOf(m_sceneRoot), origin, direction, 0, tMax, 1, true, query);
+    BvhQuery query{&m_instance, this, {}, true, false};
+    traverseBvh(addressOf(m_scene.nodes[0]), origin, direction, 0, tMax, 1, kBvhSolidGroup, query);
     return query.found;
 }
 

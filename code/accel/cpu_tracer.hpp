@@ -37,7 +37,7 @@ class CpuTracer {
   private:
     Bvh m_bvh;
     std::vector<BvhTriangle> m_triangles;
-    BvhNode m_sceneRoot{}; ///< a scene of the one instance
+    Bvh m_scene; ///< of the one instance
     BvhInstance m_instance{};
 };
 

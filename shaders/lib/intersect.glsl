@@ -1,71 +1,100 @@
-// Ray against box and triangle, robust at the extremes. Pure functions; C++ tests include this text.
-//
-// Triangle: corners are seen along the ray (Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection"): each is
-// projected by itself, so that neighbours see a shared corner at the same place, and an edge function is the difference
-// of two rounded products. Rounding keeps order, so that difference is never of the wrong sign, at worst 0, which
-// counts as inside: no ray slips through an edge or a corner, and no epsilon is needed. Nothing may be contracted into
-// fused operations there. Box: slabs with the far side widened by the rounding of three operations (Ize 2013, "Robust
-// BVH Ray Traversal").
+// Ray against the boxes of a tree's node and against a triangle, robust at the extremes. Pure functions; C++ tests
+// include this text.
 #ifndef Q3RT_LIB_INTERSECT_GLSL
 #define Q3RT_LIB_INTERSECT_GLSL
-#include "shared/types.h"
-
-// 1 + 2 gamma(3), gamma(n) = n u / (1 - n u), u = 2^-24: Ize 2013, eq. 12.
-const float kSlabFarScale = 1.0000004;
+#include "shared/bvh.h"
 
 // Reciprocal of a direction for slab tests. A zero component becomes 2^-80: the slab bounds stay finite (|b - o| * 2^80
 // < 2^127 for |b - o| < 2^47 qu), and the ray it stands for bends by less than an ulp over 2^56 qu.
 vec3 slabReciprocal(vec3 direction)
 {
-    const float tiny = 8.271806125530277e-25; // 2^-80
-    return vec3(1.0 / (abs(direction.x) < tiny ? tiny : direction.x),
-                1.0 / (abs(direction.y) < tiny ? tiny : direction.y),
-                1.0 / (abs(direction.z) < tiny ? tiny : direction.z));
+    const float tiny = 8.271806125530277e-25f; // 2^-80
+    return vec3(1.0f / (abs(direction.x) < tiny ? tiny : direction.x),
+                1.0f / (abs(direction.y) < tiny ? tiny : direction.y),
+                1.0f / (abs(direction.z) < tiny ? tiny : direction.z));
 }
 
-// Entry distance of the ray into the box, or a value > tMax if it misses [tMin, tMax].
-float intersectBox(vec3 origin, vec3 reciprocal, vec3 mins, vec3 maxs, float tMin, float tMax)
+// Bound of a slab's distance, relative to the sizes of its two terms: 12 u, see boxesMet().
+const float kSlabError = 7.152557373046875e-7f;
+
+// Bytes q of a word as 1 + q/256, exactly: into the mantissa's upper bits, so that no conversion is needed.
+vec4 onePlusBytes(uint word)
 {
-    vec3 a = (mins - origin) * reciprocal;
-    vec3 b = (maxs - origin) * reciprocal;
-    vec3 low = min(a, b);
-    vec3 high = max(a, b);
-    float near = max(max(low.x, low.y), max(low.z, tMin));
-    float far = min(min(high.x, high.y), min(high.z, tMax)) * kSlabFarScale;
-    return near <= far ? near : 3.4e38;
+    const uint mantissa = 0x7f8000u;
+    return uintBitsToFloat((uvec4(word << 15u, word << 7u, word >> 1u, word >> 9u) & mantissa) | 0x3f800000u);
 }
 
-// The ray's own axes: z along the largest component of its direction, x and y sheared until the ray is z alone.
-struct RayFrame {
-    uint axis;  // 0..2: which component is z
+// Children of a node whose boxes the ray may meet in [tMin, tMax], tMin >= 0: a bit each. `first`: the one that it
+// enters first.
+//
+// No box that the exact ray meets is missed. A plane at q cells c from the node's origin g is met at
+//   t = (g + q c - o) / d = f S + B,   f = 1 + q/256,  S = 256 c r,  B = (g - o) r - S,  r = 1/d
+// where c is a power of two, so that f and 256 c are exact. With u = 2^-24 the roundings are: r 5 u (Vulkan allows a
+// division 2.5 ulp), g - o, times r, - S, f S, the sum, and E's own subtraction u each. Relative to |g - o| |r| these
+// are 5 + 5 of them, to |S| 5 + 7 (f < 2); S itself is exact in r. So |error| <= 12 u (|(g - o) r| + 2 |S|) = E with
+// room for the terms of second order, and entering planes are moved E towards the origin, leaving ones E away.
+// Comparisons are of integers: the larger of a float and a float >= 0 is that of their bits as integers, and so is
+// the smaller one unless one is negative, when the result is negative and the box is behind the ray. (Sorting floats
+// by instructions that must also pass over NaN takes three times as many on a CPU; there is no NaN here.)
+uint boxesMet(BvhNode node, vec3 origin, vec3 reciprocal, float tMin, float tMax, OUT(uint) first)
+{
+    vec3 cell256 = vec3(uintBitsToFloat((node.scales << 23u) & 0x7f800000u),
+                        uintBitsToFloat((node.scales << 15u) & 0x7f800000u),
+                        uintBitsToFloat((node.scales << 7u) & 0x7f800000u)) * 256.0f;
+    vec3 along = (node.origin - origin) * reciprocal;
+    vec3 perStep = cell256 * reciprocal;
+    vec3 error = (abs(along) + abs(perStep) * 2.0f) * kSlabError;
+    vec3 base = along - perStep;
+    vec3 enterBase = base - error;
+    vec3 leaveBase = base + error;
+    bool backX = reciprocal.x < 0.0f, backY = reciprocal.y < 0.0f, backZ = reciprocal.z < 0.0f;
+    ivec4 enterX = floatBitsToInt(onePlusBytes(backX ? node.highX : node.lowX) * perStep.x + enterBase.x);
+    ivec4 enterY = floatBitsToInt(onePlusBytes(backY ? node.highY : node.lowY) * perStep.y + enterBase.y);
+    ivec4 enterZ = floatBitsToInt(onePlusBytes(backZ ? node.highZ : node.lowZ) * perStep.z + enterBase.z);
+    ivec4 leaveX = floatBitsToInt(onePlusBytes(backX ? node.lowX : node.highX) * perStep.x + leaveBase.x);
+    ivec4 leaveY = floatBitsToInt(onePlusBytes(backY ? node.lowY : node.highY) * perStep.y + leaveBase.y);
+    ivec4 leaveZ = floatBitsToInt(onePlusBytes(backZ ? node.lowZ : node.highZ) * perStep.z + leaveBase.z);
+    ivec4 enter = max(max(enterX, enterY), max(enterZ, ivec4(floatBitsToInt(tMin))));
+    ivec4 leave = min(min(leaveX, leaveY), min(leaveZ, ivec4(floatBitsToInt(tMax))));
+    // The child's number stands in the lowest bits of its distance.
+    ivec4 order = (enter & ~3) | ivec4(0, 1, 2, 3);
+    const int kMissed = 0x7fffffff;
+    order.x = enter.x <= leave.x ? order.x : kMissed;
+    order.y = enter.y <= leave.y ? order.y : kMissed;
+    order.z = enter.z <= leave.z ? order.z : kMissed;
+    order.w = enter.w <= leave.w ? order.w : kMissed;
+    first = uint(min(min(order.x, order.y), min(order.z, order.w))) & 3u;
+    return (enter.x <= leave.x ? 1u : 0u) | (enter.y <= leave.y ? 2u : 0u) | (enter.z <= leave.z ? 4u : 0u) |
+           (enter.w <= leave.w ? 8u : 0u);
+}
+
+// A ray as the triangle test wants it: axes in a cyclic order that ends with the one along which the ray goes farthest.
+struct TriangleRay {
+    uvec3 axes;
+    vec3 origin; // in this order
+    vec3 direction;
     vec3 shear; // x and y that go with a z of 1; z: units of the direction
 };
 
+float componentOf(vec3 v, uint axis) { return axis == 0u ? v.x : axis == 1u ? v.y : v.z; }
+vec3 componentsOf(vec3 v, uvec3 axes)
+{
+    return vec3(componentOf(v, axes.x), componentOf(v, axes.y), componentOf(v, axes.z));
+}
+
 // `reciprocal` of slabReciprocal().
-RayFrame makeRayFrame(vec3 direction, vec3 reciprocal)
+TriangleRay makeTriangleRay(vec3 origin, vec3 direction, vec3 reciprocal)
 {
     vec3 size = abs(direction);
-    if (size.x >= size.y && size.x >= size.z)
-        return RayFrame(0u, vec3(direction.y * reciprocal.x, direction.z * reciprocal.x, reciprocal.x));
-    if (size.y >= size.z)
-        return RayFrame(1u, vec3(direction.z * reciprocal.y, direction.x * reciprocal.y, reciprocal.y));
-    return RayFrame(2u, vec3(direction.x * reciprocal.z, direction.y * reciprocal.z, reciprocal.z));
-}
-
-// A point, relative to the ray's origin, in the ray's axes; z not yet in units of the direction.
-vec3 toRayFrame(RayFrame frame, vec3 p)
-{
-    vec3 turned = frame.axis == 0u ? vec3(p.y, p.z, p.x) : frame.axis == 1u ? vec3(p.z, p.x, p.y) : p;
-    PRECISE float x = turned.x - frame.shear.x * turned.z;
-    PRECISE float y = turned.y - frame.shear.y * turned.z;
-    return vec3(x, y, turned.z);
-}
-
-// Twice the area of the origin and two points; exactly the opposite for the points in the other order.
-float edgeFunction(vec3 a, vec3 b)
-{
-    PRECISE float area = a.x * b.y - a.y * b.x;
-    return area;
+    uint last = size.x >= size.y && size.x >= size.z ? 0u : size.y >= size.z ? 1u : 2u;
+    uint next = last == 2u ? 0u : last + 1u;
+    TriangleRay ray;
+    ray.axes = uvec3(next, next == 2u ? 0u : next + 1u, last);
+    ray.origin = componentsOf(origin, ray.axes);
+    ray.direction = componentsOf(direction, ray.axes);
+    float unit = componentOf(reciprocal, last);
+    ray.shear = vec3(ray.direction.x * unit, ray.direction.y * unit, unit);
+    return ray;
 }
 
 struct TriangleHit {
@@ -85,36 +114,61 @@ vec3 stableNormal(vec3 e0, vec3 e1, vec3 e2)
     return l1 >= l2 ? cross(e2, e0) : cross(e0, e1);
 }
 
-// Hit in (tMin, tMax). Triangles that the ray sees as a line are never hit.
-TriangleHit intersectTriangle(vec3 origin, RayFrame frame, vec3 direction, vec3 corner0, vec3 corner1, vec3 corner2,
-                              float tMin, float tMax)
+// A corner, relative to the ray's origin, as it is seen along the ray.
+vec2 seenAlongRay(vec3 corner, vec3 shear)
+{
+    PRECISE float x = corner.x - shear.x * corner.z;
+    PRECISE float y = corner.y - shear.y * corner.z;
+    return vec2(x, y);
+}
+
+// Twice the area of the origin and two points; exactly the opposite for the points in the other order.
+float edgeFunction(vec2 a, vec2 b)
+{
+    PRECISE float area = a.x * b.y - a.y * b.x;
+    return area;
+}
+
+// Hit in (tMin, tMax). Corners in the ray's order of axes. Woop, Benthin and Wald 2013, "Watertight Ray/Triangle
+// Intersection": each corner is projected by itself, so that neighbours see a shared corner at the same place, and an
+// edge function is the difference of two rounded products. Rounding keeps order, so that difference is never of the
+// wrong sign, at worst 0, which counts as inside: no ray slips through an edge or a corner, at any distance from the
+// origin, and no epsilon is needed. Nothing may be contracted into fused operations there. Triangles that the ray sees
+// as a line are never hit.
+TriangleHit intersectTriangle(TriangleRay ray, vec3 corner0, vec3 corner1, vec3 corner2, float tMin, float tMax)
 {
     TriangleHit result;
     result.hit = false;
     result.frontFace = false;
     result.t = tMax;
-    result.barycentric = vec2(0.0);
-    vec3 v0 = corner0 - origin;
-    vec3 v1 = corner1 - origin;
-    vec3 v2 = corner2 - origin;
-    vec3 p0 = toRayFrame(frame, v0), p1 = toRayFrame(frame, v1), p2 = toRayFrame(frame, v2);
+    result.barycentric = vec2(0.0f);
+    vec3 v0 = corner0 - ray.origin;
+    vec3 v1 = corner1 - ray.origin;
+    vec3 v2 = corner2 - ray.origin;
+    vec2 p0 = seenAlongRay(v0, ray.shear), p1 = seenAlongRay(v1, ray.shear), p2 = seenAlongRay(v2, ray.shear);
     float w0 = edgeFunction(p1, p2), w1 = edgeFunction(p2, p0), w2 = edgeFunction(p0, p1);
-    if (min(w0, min(w1, w2)) < 0.0 && max(w0, max(w1, w2)) > 0.0)
+    if ((w0 < 0.0f || w1 < 0.0f || w2 < 0.0f) && (w0 > 0.0f || w1 > 0.0f || w2 > 0.0f))
         return result;
     float sum = w0 + w1 + w2;
-    if (sum == 0.0)
+    if (sum == 0.0f)
         return result;
-    // The distance of the plane, from edges of the untranslated corners: their rounding is relative to the edge, not to
-    // the distance of the origin. Where a sliver or an edge-on triangle has no plane to speak of, that of the corners.
+    // The distance of the plane, from the corner that is nearest, whose rounding is least, and from edges of the
+    // untranslated corners, whose rounding is relative to the edge and not to the distance of the origin. Where a
+    // sliver or an edge-on triangle has no plane to speak of, that of the corners.
     vec3 normal = stableNormal(corner2 - corner0, corner0 - corner1, corner1 - corner2);
-    float t = dot(v0, normal) / dot(normal, direction);
-    float z0 = p0.z * frame.shear.z, z1 = p1.z * frame.shear.z, z2 = p2.z * frame.shear.z;
+    vec3 nearest = v0;
+    if (dot(v1, v1) < dot(nearest, nearest))
+        nearest = v1;
+    if (dot(v2, v2) < dot(nearest, nearest))
+        nearest = v2;
+    float t = dot(nearest, normal) / dot(normal, ray.direction);
+    float z0 = v0.z * ray.shear.z, z1 = v1.z * ray.shear.z, z2 = v2.z * ray.shear.z;
     if (!(t >= min(z0, min(z1, z2)) && t <= max(z0, max(z1, z2))))
         t = (w0 * z0 + w1 * z1 + w2 * z2) / sum;
     if (!(t > tMin && t < tMax))
         return result;
     result.hit = true;
-    result.frontFace = (sum > 0.0) == (frame.shear.z > 0.0);
+    result.frontFace = (sum > 0.0f) == (ray.shear.z > 0.0f);
     result.t = t;
     result.barycentric = vec2(w1, w2) / sum;
     return result;

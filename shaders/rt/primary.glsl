@@ -54,6 +54,8 @@ void followLayer(inout Picture picture, CameraRay ray, SurfacePoint point, Surfa
 void addLayer(inout Picture picture, CameraRay ray, SurfacePoint point, SurfacePlace place, MaterialColor color,
               float random)
 {
+    bool follows = false;
+    uint normal = kNoNormal;
     picture.pixel.emission += picture.passed * color.glow;
     vec3 albedo = picture.passed * color.albedo;
     float weight = albedo.x + albedo.y + albedo.z;
@@ -70,12 +72,13 @@ void addLayer(inout Picture picture, CameraRay ray, SurfacePoint point, SurfaceP
             picture.pixel.instance = place.instance;
             picture.pixel.triangle = place.triangle;
             picture.pixel.barycentric = packUnorm2x16(place.barycentric);
-            followLayer(picture, ray, point, place, packNormal(picture.pixel.normal));
+            follows = true;
+            normal = packNormal(picture.pixel.normal);
         }
     }
     float through = max(color.through.x, max(color.through.y, color.through.z));
-    if (!picture.followed && through < kHidingShare)
-        followLayer(picture, ray, point, place, kNoNormal);
+    if (follows || (!picture.followed && through < kHidingShare))
+        followLayer(picture, ray, point, place, normal);
     picture.passed *= color.through;
 }
 
@@ -102,116 +105,140 @@ bool addReflection(inout Picture picture, inout CameraRay ray, SurfacePoint poin
 }
 
 // True: the ray has turned, and what is straight on does not show.
-bool addHit(inout Picture picture, inout CameraRay ray, uint instance, uint triangle, vec2 barycentric, float t,
-            vec2 random)
+bool addHit(inout Picture picture, inout CameraRay ray, Hit hit, vec2 random)
 {
-    SurfacePoint point =
-        makeSurfacePoint(instance, triangle, barycentric, ray.origin, ray.direction, ray.directionX, ray.directionY);
+    SurfacePoint point = makeSurfacePoint(hit.instance, hit.triangle, hit.barycentric, ray.origin, ray.direction,
+                                          ray.directionX, ray.directionY);
     if ((point.surface.flags & (kSurfaceWater | kSurfaceGlass)) != 0u &&
-        addReflection(picture, ray, point, t, random.y))
+        addReflection(picture, ray, point, hit.t, random.y))
         return true;
-    addLayer(picture, ray, point, SurfacePlace(instance, triangle, barycentric, t),
+    addLayer(picture, ray, point, SurfacePlace(hit.instance, hit.triangle, hit.barycentric, hit.t),
              shadeSurface(point, ray.origin, ray.forward), random.x);
     if (point.surface.portal == 0u || !point.frontFace || picture.passed == vec3(0.0))
         return false;
-    turnThroughPortal(ray, PortalTable(rtFrame.portals).at[point.surface.portal - 1u], t,
+    turnThroughPortal(ray, PortalTable(rtFrame.portals).at[point.surface.portal - 1u], hit.t,
                       abs(dot(point.geometricNormal, ray.direction)));
     return true;
 }
 
-// All layers in front of `limit` in drawing order, in batches. Each batch ends after a larger key, and there are
-// finitely many layers: the loop ends. It also ends where nothing behind can show any more. True: the ray has turned.
-bool addLayers(inout Picture picture, inout CameraRay ray, float tMax, float limit, uvec4 key)
+// What a ray looks for next.
+const uint kLookNowhere = 0u; // there is something left of the last look
+const uint kLookAhead = 1u;   // the first solid of a depth range, and the layers in front of it
+const uint kLookLayers = 2u;  // more layers in front of it: a batch was full
+const uint kLookBehind = 3u;  // the next solid, behind one that lets something through
+const uint kLookSky = 4u;     // which sky
+
+// A ray in one depth range: what was seen and has not been used yet.
+struct Outlook {
+    uint look;
+    Sight sight;
+    bool full;        // there may be more layers behind those of `sight`
+    float from;       // where solids are looked for
+    float limit;      // the first solid's distance: layers behind it are hidden
+    uint layerNumber; // layers used, for random numbers
+};
+
+Outlook lookAhead(CameraRay ray)
 {
-    LayerKey after = LayerKey(ray.from, 0u, 0u);
-    uint number = 0u;
-    for (;;) {
-        LayerBatch batch = traceLayers(ray.origin, ray.direction, tMax, ray.layerMask, after);
-        for (uint i = 0u; i < batch.count; ++i) {
-            Layer layer = batch.layers[i];
-            if (layer.key.distance > limit || picture.passed == vec3(0.0))
-                return false;
-            vec2 random = randomNumbers(key, kDimensionLayer + (number << 8u)).xz;
-            if (addHit(picture, ray, layer.key.instance, layer.key.triangle, layer.barycentric, layer.t, random))
-                return true;
-            ++number;
-        }
-        if (batch.count < kLayersPerBatch)
-            return false;
-        after = batch.layers[kLayersPerBatch - 1u].key;
-    }
+    return Outlook(kLookAhead, Sight(noHit(), emptyBatch(LayerKey(ray.from, 0u, 0u))), false, ray.from, 0.0, 0u);
 }
 
-// One depth range: layers and solids by turns until nothing behind shows. A solid that lets something through (the
-// accept function samples the finest texels, shading the filtered ones) is passed at the next number after its
-// distance. True: the ray has turned.
-bool addRange(inout Picture picture, inout CameraRay ray, uvec4 key)
+// The one place where camera rays are traced: what is inlined here is large.
+void look(inout Outlook view, CameraRay ray)
 {
-    float from = ray.from;
-    float farthest = ray.from + rtFrame.farQu;
-    bool layered = false;
-    for (;;) {
-        Hit solid = traceClosest(ray.origin, ray.direction, from, farthest, ray.solidMask, true);
-        if ((rtFrame.flags & kFrameLayers) != 0u && !layered) {
-            // Layers behind a solid that lets light through are rare and shown in front of what is behind it.
-            float limit = solid.t > 0.0 ? solid.t : farthest;
-            float step = sameDistanceStep(limit, length(ray.origin), kGrazingCosine);
-            if (addLayers(picture, ray, limit + step * float(rtFrame.layerOrderCount + 1u), limit, key))
-                return true;
-            layered = true;
-        }
-        if (solid.t == 0.0 || picture.passed == vec3(0.0))
-            return false;
-        if (addHit(picture, ray, solid.instance, solid.triangle, solid.barycentric, solid.t,
-                   randomNumbers(key, kDimensionLayer).yw))
-            return true;
-        if (picture.passed == vec3(0.0))
-            return false;
-        from = solid.t * (1.0 + 2.0 * kUnitRoundoff);
-    }
+    bool more = view.look == kLookLayers;
+    uint solidMask = more ? 0u : view.look == kLookSky ? kMaskSky : ray.solidMask;
+    bool layered = (more || view.look == kLookAhead) && (rtFrame.flags & kFrameLayers) != 0u;
+    float from = more ? view.sight.layers.after.distance : view.from;
+    float farthest = more ? view.limit : ray.from + rtFrame.farQu;
+    Hit solid = view.sight.solid;
+    view.sight = traceSight(ray.origin, ray.direction, from, farthest, solidMask, layered ? ray.layerMask : 0u,
+                            view.sight.layers.after);
+    if (more)
+        view.sight.solid = solid;
+    if (view.look == kLookAhead)
+        view.limit = view.sight.solid.t > 0.0 ? view.sight.solid.t : farthest;
+    view.full = view.sight.layers.count == kLayersPerBatch;
+    view.look = kLookNowhere;
 }
 
-void addSky(inout Picture picture, CameraRay ray)
+// The next surface along the ray: layers in front of the solid, then the solid, by turns until nothing behind shows. A
+// solid that lets something through (the accept function samples the finest texels, shading the filtered ones) is
+// passed at the next number after its distance; layers behind it are rare and shown in front of what is behind it.
+// hit.t == 0: there is none, or view.look says what has to be looked for first. `random`: two numbers for its use.
+Hit nextSurface(inout Outlook view, uvec4 key, out vec2 random)
 {
-    if (rtFrame.skyCount == 0u)
-        return;
-    uint sky = 0u;
-    if ((rtFrame.flags & kFrameSkySurfaces) != 0u) {
-        Hit hit = traceClosest(ray.origin, ray.direction, ray.from, ray.from + rtFrame.farQu, kMaskSky, true);
-        if (hit.t > 0.0)
-            sky = SurfaceTable(rtFrame.surfaces).at[findTriangle(hit.instance, hit.triangle).surface].sky;
+    bool layered = view.sight.layers.count > 0u && view.sight.layers.layers[0].key.distance <= view.limit;
+    vec4 numbers = randomNumbers(key, kDimensionLayer + (layered ? view.layerNumber << 8u : 0u));
+    random = layered ? numbers.xz : numbers.yw;
+    if (layered) {
+        Layer layer = takeLayer(view.sight.layers);
+        ++view.layerNumber;
+        return Hit(layer.t, layer.key.instance, layer.key.triangle, layer.barycentric);
     }
-    picture.pixel.emission += picture.passed * skyColor(SkyTable(rtFrame.skies).at[sky], ray.direction, ray.directionX,
-                                                        ray.directionY);
+    // Each batch ends after a larger key, and there are finitely many layers: the looking ends.
+    if (view.full && view.sight.layers.count == 0u) {
+        view.look = kLookLayers;
+        return noHit();
+    }
+    if (view.sight.solid.t > 0.0) {
+        view.from = view.sight.solid.t * (1.0 + 2.0 * kUnitRoundoff);
+        view.look = kLookBehind;
+    }
+    return view.sight.solid;
 }
 
 // Follows a ray through the near depth range, the far one and all turns. `part` numbers the ray's parts for random
 // numbers.
 void addRay(inout Picture picture, CameraRay ray, bool near, uint part, uvec4 key)
 {
+    uint sky = 0u;
+    if (near) {
+        ray.solidMask = kMaskNearSolid;
+        ray.layerMask = kMaskNearLayer;
+    }
+    Outlook view = lookAhead(ray);
     for (;;) {
-        if (near) {
-            ray.solidMask = kMaskNearSolid;
-            ray.layerMask = kMaskNearLayer;
+        if (view.look != kLookNowhere) {
+            uint looked = view.look;
+            look(view, ray);
+            if (looked == kLookSky) {
+                Hit hit = view.sight.solid;
+                if (hit.t > 0.0)
+                    sky = SurfaceTable(rtFrame.surfaces).at[findTriangle(hit.instance, hit.triangle).surface].sky;
+                break;
+            }
         }
-        bool turned = addRange(picture, ray, key ^ uvec4(0u, 0u, 0u, 0x9e3779b9u * part));
-        ++part;
-        if (picture.passed == vec3(0.0))
-            return;
-        if (turned && picture.turns == rtFrame.reflectionDepth)
-            return;
-        if (!turned && !near) {
-            addSky(picture, ray);
-            return;
-        }
-        if (turned) {
+        vec2 random;
+        Hit hit = nextSurface(view, key ^ uvec4(0u, 0u, 0u, 0x9e3779b9u * part), random);
+        if (hit.t > 0.0) {
+            bool turned = addHit(picture, ray, hit, random);
+            if (picture.passed == vec3(0.0))
+                return;
+            if (!turned)
+                continue;
+            if (picture.turns == rtFrame.reflectionDepth)
+                return;
             ++picture.turns;
-        } else {
+        } else if (view.look == kLookLayers) {
+            continue;
+        } else if (near) {
             ray.solidMask = kMaskSolid;
             ray.layerMask = kMaskLayer;
+        } else if ((rtFrame.flags & kFrameSkySurfaces) != 0u) {
+            view.look = kLookSky;
+            view.from = ray.from;
+            continue;
+        } else {
+            break;
         }
         near = false;
+        ++part;
+        view = lookAhead(ray);
     }
+    if (rtFrame.skyCount > 0u)
+        picture.pixel.emission += picture.passed * skyColor(SkyTable(rtFrame.skies).at[sky], ray.direction,
+                                                            ray.directionX, ray.directionY);
 }
 
 // The sky is followed as something as far as the map is large, which does not come nearer.

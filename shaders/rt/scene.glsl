@@ -1,6 +1,7 @@
 // The frame's tables: everything is reached from the one address in the push constant.
 #ifndef Q3RT_RT_SCENE_GLSL
 #define Q3RT_RT_SCENE_GLSL
+#include "lib/offset.glsl"
 #include "shared/constants.h"
 #include "shared/rt_scene.h"
 #include "shared/stage.h"
@@ -43,6 +44,12 @@ SceneTriangle findTriangle(uint instanceIndex, uint triangle)
     result.vertex = uvec3(indices.at[3u * triangle], indices.at[3u * triangle + 1u], indices.at[3u * triangle + 2u]);
     result.vertices = instance.vertices;
     return result;
+}
+
+// The search for layers drawn before a solid at distance t ends where one of the highest drawing order could still lie.
+float layerReach(float t, vec3 origin)
+{
+    return t + sameDistanceStep(t, length(origin), kGrazingCosine) * float(rtFrame.layerOrderCount + 1u);
 }
 
 #endif

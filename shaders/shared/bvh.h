@@ -1,4 +1,5 @@
-// Our own two-level tree as the shaders read it. Scalar layout. Bytes: 64 a node, 48 a triangle, 80 an instance.
+// Our own two-level tree as the shaders read it. Scalar layout. Bytes: 64 a node of up to four children, 48 a triangle,
+// 80 an instance.
 #ifndef Q3RT_SHARED_BVH_H
 #define Q3RT_SHARED_BVH_H
 #include "types.h"
@@ -9,30 +10,56 @@
 #endif
 SHARED_BEGIN
 
-// Set in BvhNode::left/right: the child is a leaf, the low bits its first item.
+SHARED_CONST kBvhWidth = 4u;
+// BvhNode::child: a node's index; or a leaf: this bit, how many items, the first of them.
 SHARED_CONST kBvhLeafBit = 0x80000000u;
+SHARED_CONST kBvhCountShift = 27u;
+SHARED_CONST kBvhMostLeafItems = 15u;
+SHARED_CONST kBvhItemMask = 0x07ffffffu;
 // Deepest path of any tree that a builder returns; the traversal stack of one level is that long.
 SHARED_CONST kBvhMaxDepth = 64u;
 
-// Both children's boxes stand in one node, so that one visit decides both (Aila and Laine 2009, "Understanding the
-// Efficiency of Ray Traversal on GPUs"). An absent child is a leaf of 0 items.
+// Rays look for one of two groups of triangles (renderer_rt sorts surfaces into them); a subtree without any is
+// passed by. Bits of an item; in BvhNode::scales, from kBvhGroupShift on, kBvhWidth bits say which children have solids,
+// as many which have others.
+SHARED_CONST kBvhSolidGroup = 1u;
+SHARED_CONST kBvhOtherGroup = 2u;
+SHARED_CONST kBvhGroupShift = 24u;
+
+// Children's boxes on a grid of 256 cells an axis, lower bounds rounded down and upper ones up (code/accel/bvh_node.cpp;
+// after Ylitie, Karras and Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs"): a
+// cache line holds four of them, and all that a visit reads is 40 bytes. An absent child is in no group.
 struct BvhNode {
-    vec3 leftMins;
-    uint left; // node index, or kBvhLeafBit | first item
-    vec3 leftMaxs;
-    uint leftCount; // items of a leaf, 0 for an inner child
-    vec3 rightMins;
-    uint right;
-    vec3 rightMaxs;
-    uint rightCount;
+    vec3 origin;  // of the grid: the lowest corner
+    uint scales;  // a byte an axis: exponent of the cell's size as in binary32; then the children's groups
+    uint lowX;    // a byte a child: lower bounds in cells
+    uint lowY;
+    uint lowZ;
+    uint highX;
+    uint highY;
+    uint highZ;
+    uint reserved0;
+    uint reserved1;
+    uint child[4];
 };
 
-// Vertices are stored in leaf order and not shared: one cache line and a half a triangle, no index fetch.
+SHARED_CONST kBvhTriangleOpaque = 1u;   // a hit counts without asking anybody
+SHARED_CONST kBvhTriangleCullBack = 2u; // rays that look don't meet its back
+SHARED_CONST kBvhPartShift = 8u;        // from this bit on: its part of the tree
+SHARED_CONST kBvhMostParts = 8u;
+
+// What a search returns for "how far does it go on" when it is over.
+SHARED_FLOAT kBvhFound = -1.0f;
+
+// From a corner to the next one.
+SHARED_CONST kBvhCornerWords = 4u;
+
+// Corners are stored in leaf order and not shared: no index fetch. A test reads the nine coordinates, a hit the rest.
 struct BvhTriangle {
     vec3 corner0;
-    uint number; // triangle number in its structure
+    uint number; // in its part
     vec3 corner1;
-    uint opaque; // 1: a hit counts without asking anybody
+    uint flags; // kBvhTriangle*, part
     vec3 corner2;
     uint reserved;
 };
@@ -43,10 +70,9 @@ struct BvhInstance {
     vec4 modelFromWorld[3]; // rows of the linear part; w: where the model's origin stands in the world
     BVH_TABLE nodes;        // BvhNode[], [0] the root
     BVH_TABLE triangles;    // BvhTriangle[] in leaf order
-    uint customIndex;       // what a hit reports
-    uint mask;              // met by a ray when mask & rayMask != 0
-    uint cullBack;          // 1: rays that look don't meet its back faces
-    uint reserved;
+    uint customIndex;       // what a hit of part 0 reports; part n: n more
+    uint mask;              // of all its parts: a ray enters when mask & rayMask != 0
+    uint partMasks[2];      // a byte a part: its triangles are met when it has a bit of the ray's mask
 };
 
 SHARED_END

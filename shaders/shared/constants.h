@@ -2,11 +2,6 @@
 #ifndef Q3RT_SHARED_CONSTANTS_H
 #define Q3RT_SHARED_CONSTANTS_H
 #include "types.h"
-#ifdef __cplusplus
-#define SHARED_FLOAT inline constexpr float
-#else
-#define SHARED_FLOAT const float
-#endif
 SHARED_BEGIN
 
 SHARED_FLOAT kPi = 3.14159265358979f;

@@ -21,6 +21,7 @@ SHARED_CONST kMaskShadow = 0x10u; // blocks light
 SHARED_CONST kMaskSky = 0x20u;
 SHARED_CONST kMaskNearSolid = 0x40u; // depth hack: wins over everything that is not
 SHARED_CONST kMaskNearLayer = 0x80u;
+SHARED_CONST kMasksOfSolids = kMaskSolid | kMaskSolidMirror | kMaskShadow | kMaskNearSolid;
 
 // Hit groups of the pipeline back end.
 SHARED_CONST kHitGroupRecord = 0u; // closest: fill the record; any: the shared accept function

@@ -10,15 +10,19 @@ using uint = uint32_t;
 #define SHARED_BEGIN namespace q3rt {
 #define SHARED_END }
 #define SHARED_CONST inline constexpr uint
+#define SHARED_FLOAT inline constexpr float
 #define INOUT(type) type&
 #define OUT(type) type&
 #define PRECISE
+#define UNROLL
 #else
 #define SHARED_BEGIN
 #define SHARED_END
 #define SHARED_CONST const uint
+#define SHARED_FLOAT const float
 #define INOUT(type) inout type
 #define OUT(type) out type
-#define PRECISE precise
+#define UNROLL [[unroll]]
+#define PRECISE precise // what follows is not reassociated or fused
 #endif
 #endif

@@ -1,25 +1,29 @@
-// Two-level traversal of our own tree: stack, near child first. Loops, no recursion; bounded by the depth that builders
-// guarantee. Pure but for what the includer defines:
-//   struct BvhQuery                             what the search carries along
-//   BvhNode loadBvhNode(BVH_TABLE table, uint index)        BvhTriangle loadBvhTriangle(BVH_TABLE table, uint index)
-//   BvhInstance loadBvhInstance(INOUT(BvhQuery) query, uint item)   the instance at a leaf item of the scene tree
-//   bool onBvhTriangle(INOUT(BvhQuery) query, BvhInstance instance, BvhTriangle triangle, TriangleHit test)
-//                                               a triangle that the ray meets; true: it counts, nothing behind it does
+// Two-level traversal of our own tree: a stack, the child that the ray enters first goes first. Loops, no recursion;
+// bounded by the depth that builders guarantee. Pure but for what the includer defines:
+//   struct BvhQuery                                          what the search carries along
+//   BvhNode loadBvhNode(BVH_TABLE nodes, uint index)
+//   uint loadBvhChild(BVH_TABLE nodes, uint index, uint slot)         the same node's child[slot]
+//   float loadBvhCoordinate(BVH_TABLE triangles, uint index, uint corner, uint axis)
+//   BvhInstance loadBvhInstance(INOUT(BvhQuery) query, uint item)     the instance at a leaf item of the scene tree
+//   float onBvhTriangle(INOUT(BvhQuery) query, uint item, BVH_TABLE triangles, uint index, TriangleHit test, float tMax)
+//     a triangle that the ray meets, of the instance at that item; returns how far the search goes on: tMax, or less,
+//     or kBvhFound, which ends it
 #ifndef Q3RT_TRACE_BVH_TRAVERSE_GLSL
 #define Q3RT_TRACE_BVH_TRAVERSE_GLSL
 #include "lib/intersect.glsl"
 #include "shared/bvh.h"
 
-// One level's ray with what its slab tests need.
+// One level's ray.
 struct BvhRay {
     vec3 origin;
-    vec3 direction;
     vec3 reciprocal;
+    TriangleRay triangleRay;
 };
 
 BvhRay makeBvhRay(vec3 origin, vec3 direction)
 {
-    return BvhRay(origin, direction, slabReciprocal(direction));
+    vec3 reciprocal = slabReciprocal(direction);
+    return BvhRay(origin, reciprocal, makeTriangleRay(origin, direction, reciprocal));
 }
 
 // The ray in the model space of an instance; the direction keeps its scale, so that t means the same in both spaces.
@@ -33,92 +37,98 @@ BvhRay toModelSpace(BvhInstance instance, vec3 origin, vec3 direction)
                       vec3(dot(r0, direction), dot(r1, direction), dot(r2, direction)));
 }
 
-// Tests the triangles of a leaf, shortening tMax at each one that counts; true when one did.
-bool visitLeaf(BvhRay ray, RayFrame frame, BvhInstance instance, uint first, uint count, float tMin, INOUT(float) tMax,
-               INOUT(BvhQuery) query)
+vec3 loadBvhCorner(BVH_TABLE triangles, uint index, uint corner, uvec3 axes)
 {
-    bool counted = false;
-    for (uint i = 0u; i < count; ++i) {
-        BvhTriangle triangle = loadBvhTriangle(instance.triangles, first + i);
-        TriangleHit test = intersectTriangle(ray.origin, frame, ray.direction, triangle.corner0,
-                                             triangle.corner1, triangle.corner2, tMin, tMax);
-        if (test.hit && onBvhTriangle(query, instance, triangle, test)) {
-            tMax = test.t;
-            counted = true;
-        }
-    }
-    return counted;
+    return vec3(loadBvhCoordinate(triangles, index, corner, axes.x), loadBvhCoordinate(triangles, index, corner, axes.y),
+                loadBvhCoordinate(triangles, index, corner, axes.z));
 }
 
-// Visits the triangles that the ray meets in (tMin, tMax), nearest boxes first; returns the t of the last one that
-// counted, or tMax. With anyHit the first one ends the search.
-float traverseBvh(BVH_TABLE sceneNodes, vec3 origin, vec3 direction, float tMin, float tMax, uint mask, bool anyHit,
-                  INOUT(BvhQuery) query)
+// Tests the triangles of a leaf; returns how far the search goes on.
+float visitBvhLeaf(TriangleRay ray, uint item, BVH_TABLE triangles, uint leaf, float tMin, float tMax,
+                   INOUT(BvhQuery) query)
 {
-    // Entries: a node, or a leaf (kBvhLeafBit) with its count beside it. Those below `modelBase` belong to the scene.
-    uint stackChild[2u * kBvhMaxDepth];
-    uint stackCount[2u * kBvhMaxDepth];
+    uint first = leaf & kBvhItemMask;
+    uint end = first + ((leaf & ~kBvhLeafBit) >> kBvhCountShift);
+    for (uint i = first; i < end; ++i) {
+        TriangleHit test = intersectTriangle(ray, loadBvhCorner(triangles, i, 0u, ray.axes),
+                                             loadBvhCorner(triangles, i, 1u, ray.axes),
+                                             loadBvhCorner(triangles, i, 2u, ray.axes), tMin, tMax);
+        if (test.hit)
+            tMax = onBvhTriangle(query, item, triangles, i, test, tMax);
+    }
+    return tMax;
+}
+
+// Visits the triangles that the ray meets in (tMin, tMax), nearest boxes first. 0 <= tMin. `groups`: of triangles, that
+// are looked for (kBvhSolidGroup, kBvhOtherGroup).
+void traverseBvh(BVH_TABLE sceneNodes, vec3 origin, vec3 direction, float tMin, float tMax, uint mask, uint groups,
+                 INOUT(BvhQuery) query)
+{
+    // A word holds a node and those of its children that are still to be visited, a bit each: one push a visit at most.
+    // Words below `modelBase` belong to the scene.
+    const uint slots = (1u << kBvhWidth) - 1u;
+    uint wanted = ((groups & kBvhSolidGroup) != 0u ? slots : 0u) | ((groups & kBvhOtherGroup) != 0u ? slots << kBvhWidth : 0u);
+    uint stack[2u * kBvhMaxDepth];
     uint top = 0u;
     const uint kNoModel = 0xffffffffu;
     uint modelBase = kNoModel;
-    BvhInstance instance;
-    BvhRay world = makeBvhRay(origin, direction);
-    BvhRay ray = world;
-    RayFrame frame; // of a model's ray: triangles are met there only
+    BvhRay ray = makeBvhRay(origin, direction);
     BVH_TABLE nodes = sceneNodes;
+    BVH_TABLE triangles = sceneNodes;
+    uint item = 0u;
+    uint rest = 0u;
     uint child = 0u;
-    uint count = 0u;
     for (;;) {
+        uint slot = kBvhWidth;
         if ((child & kBvhLeafBit) == 0u) {
             BvhNode node = loadBvhNode(nodes, child);
-            float left = intersectBox(ray.origin, ray.reciprocal, node.leftMins, node.leftMaxs, tMin, tMax);
-            float right = intersectBox(ray.origin, ray.reciprocal, node.rightMins, node.rightMaxs, tMin, tMax);
-            bool leftHit = left <= tMax, rightHit = right <= tMax;
-            if (leftHit || rightHit) {
-                bool leftFirst = leftHit && (!rightHit || left <= right);
-                child = leftFirst ? node.left : node.right;
-                count = leftFirst ? node.leftCount : node.rightCount;
-                if (leftHit && rightHit) {
-                    stackChild[top] = leftFirst ? node.right : node.left;
-                    stackCount[top] = leftFirst ? node.rightCount : node.leftCount;
-                    ++top;
-                }
-                continue;
+            uint first;
+            uint held = (node.scales >> kBvhGroupShift) & wanted;
+            uint met = boxesMet(node, ray.origin, ray.reciprocal, tMin, tMax, first) & (held | (held >> kBvhWidth));
+            if (met != 0u) {
+                if ((rest & slots) != 0u)
+                    stack[top++] = rest;
+                rest = (child << kBvhWidth) | met;
+                if ((met & (1u << first)) != 0u)
+                    slot = first;
             }
         } else if (modelBase != kNoModel) {
-            if (visitLeaf(ray, frame, instance, child & ~kBvhLeafBit, count, tMin, tMax, query) && anyHit)
-                return tMax;
-        } else if (count > 0u) {
-            // One instance of a scene leaf at a time; the rest of the leaf waits on the stack.
-            uint first = child & ~kBvhLeafBit;
-            if (count > 1u) {
-                stackChild[top] = kBvhLeafBit | (first + 1u);
-                stackCount[top] = count - 1u;
-                ++top;
-            }
-            instance = loadBvhInstance(query, first);
+            tMax = visitBvhLeaf(ray.triangleRay, item, triangles, child, tMin, tMax, query);
+            if (tMax < 0.0)
+                return;
+        } else {
+            // A leaf of the scene is one instance.
+            item = child & kBvhItemMask;
+            BvhInstance instance = loadBvhInstance(query, item);
             if ((instance.mask & mask) != 0u) {
+                if ((rest & slots) != 0u)
+                    stack[top++] = rest;
                 modelBase = top;
                 ray = toModelSpace(instance, origin, direction);
-                frame = makeRayFrame(ray.direction, ray.reciprocal);
                 nodes = instance.nodes;
+                triangles = instance.triangles;
+                rest = 0u;
                 child = 0u;
-                count = 0u;
                 continue;
             }
         }
-        if (top == modelBase) {
-            modelBase = kNoModel;
-            ray = world;
-            nodes = sceneNodes;
+        if (slot == kBvhWidth) {
+            if ((rest & slots) == 0u) {
+                if (top == modelBase) {
+                    modelBase = kNoModel;
+                    ray = makeBvhRay(origin, direction);
+                    nodes = sceneNodes;
+                }
+                if (top == 0u)
+                    return;
+                rest = stack[--top];
+            }
+            uint lowest = rest & (~rest + 1u);
+            slot = lowest > 2u ? (lowest >> 2u) + 1u : lowest >> 1u; // its number: 1, 2, 4, 8 to 0, 1, 2, 3
         }
-        if (top == 0u)
-            return tMax;
-        --top;
-        child = stackChild[top];
-        count = stackCount[top];
+        rest ^= 1u << slot;
+        child = loadBvhChild(nodes, rest >> kBvhWidth, slot);
     }
-    return tMax;
 }
 
 #endif

@@ -6,81 +6,86 @@
 #include "trace/trace.glsl"
 #include "lib/intersect.glsl"
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer BvhNodeTable { BvhNode at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer BvhTriangleTable { BvhTriangle at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer BvhInstanceTable { BvhInstance at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer BvhNodeTable { BvhNode at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer BvhTriangleTable { BvhTriangle at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer BvhCoordinateTable { float at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer BvhInstanceTable { BvhInstance at[]; };
 
-BvhNode loadBvhNode(uvec2 table, uint index) { return BvhNodeTable(table).at[index]; }
-BvhTriangle loadBvhTriangle(uvec2 table, uint index) { return BvhTriangleTable(table).at[index]; }
-const uint kSearchHit = 0u;    // `hit` is the last triangle that counted
-const uint kSearchLayers = 1u; // nothing counts, everything is collected
+const uint kBvhTriangleWords = 3u * kBvhCornerWords;
+
+BvhNode loadBvhNode(uvec2 nodes, uint index) { return BvhNodeTable(nodes).at[index]; }
+uint loadBvhChild(uvec2 nodes, uint index, uint slot) { return BvhNodeTable(nodes).at[index].child[slot]; }
+float loadBvhCoordinate(uvec2 triangles, uint index, uint corner, uint axis)
+{
+    return BvhCoordinateTable(triangles).at[index * kBvhTriangleWords + corner * kBvhCornerWords + axis];
+}
 
 struct BvhQuery {
-    uint kind; // a literal at every call: the other kind's code and data fold away
-    bool cullBack;
+    bool looks; // a literal at every call: the code and data of the other kind fold away
+    uint solidMask;
+    uint layerMask;
     vec3 origin;
     vec3 direction;
-    Hit hit;
-    LayerBatch batch;
+    Sight sight;
 };
 
 // Instances are stored in the leaf order of the scene tree.
-BvhInstance loadBvhInstance(inout BvhQuery query, uint item) {
+BvhInstance loadBvhInstance(inout BvhQuery query, uint item)
+{
     return BvhInstanceTable(rtFrame.treeInstances).at[item];
 }
 
-bool onBvhTriangle(inout BvhQuery query, BvhInstance instance, BvhTriangle triangle, TriangleHit test)
+float onBvhTriangle(inout BvhQuery query, uint item, uvec2 triangles, uint index, TriangleHit test, float tMax)
 {
-    if (query.kind == kSearchLayers) {
-        float distance = layerDistance(instance.customIndex, triangle.number, test.barycentric, test.t, query.origin,
-                                       query.direction);
+    uint flags = BvhTriangleTable(triangles).at[index].flags;
+    uint part = flags >> kBvhPartShift;
+    uint masks = BvhInstanceTable(rtFrame.treeInstances).at[item].partMasks[part >> 2u] >> (8u * (part & 3u));
+    if ((masks & (query.solidMask | query.layerMask)) == 0u)
+        return tMax;
+    uint number = BvhTriangleTable(triangles).at[index].number;
+    uint instance = BvhInstanceTable(rtFrame.treeInstances).at[item].customIndex + part;
+    if (query.looks && (masks & query.layerMask) != 0u) {
+        float distance = layerDistance(instance, number, test.barycentric, test.t, query.origin, query.direction);
         if (distance > 0.0)
-            insertLayer(query.batch, Layer(LayerKey(distance, instance.customIndex, triangle.number), test.t,
-                                           test.barycentric));
-        return false;
+            insertLayer(query.sight.layers, Layer(LayerKey(distance, instance, number), test.t, test.barycentric));
+        return tMax;
     }
-    if (query.cullBack && instance.cullBack != 0u && !test.frontFace)
-        return false;
-    if (triangle.opaque == 0u &&
-        !acceptHit(instance.customIndex, triangle.number, test.barycentric, test.t, query.direction))
-        return false;
-    query.hit = Hit(test.t, instance.customIndex, triangle.number, test.barycentric);
-    return true;
+    if (query.looks && (flags & kBvhTriangleCullBack) != 0u && !test.frontFace)
+        return tMax;
+    // The search goes on a little behind the solid where layers are looked for.
+    if (query.looks && query.sight.solid.t > 0.0 && test.t >= query.sight.solid.t)
+        return tMax;
+    if ((flags & kBvhTriangleOpaque) == 0u &&
+        !acceptHit(instance, number, test.barycentric, test.t, query.direction))
+        return tMax;
+    query.sight.solid = Hit(test.t, instance, number, test.barycentric);
+    if (!query.looks)
+        return kBvhFound;
+    return query.layerMask != 0u ? min(tMax, layerReach(test.t, query.origin)) : test.t;
 }
 
 #include "trace/bvh_traverse.glsl"
 
-BvhQuery beginQuery(uint kind, vec3 origin, vec3 direction, bool cullBack)
+uint groupsOf(uint mask)
 {
-    BvhQuery query;
-    query.kind = kind;
-    query.cullBack = cullBack;
-    query.origin = origin;
-    query.direction = direction;
-    query.hit = Hit(0.0, 0u, 0u, vec2(0.0));
-    return query;
+    return ((mask & kMasksOfSolids) != 0u ? kBvhSolidGroup : 0u) | ((mask & ~kMasksOfSolids) != 0u ? kBvhOtherGroup : 0u);
 }
 
-Hit traceClosest(vec3 origin, vec3 direction, float tMin, float tMax, uint mask, bool cullBack)
+Sight traceSight(vec3 origin, vec3 direction, float tMin, float tMax, uint solidMask, uint layerMask, LayerKey after)
 {
-    BvhQuery query = beginQuery(kSearchHit, origin, direction, cullBack);
-    traverseBvh(rtFrame.treeNodes, origin, direction, tMin, tMax, mask, false, query);
-    return query.hit;
+    BvhQuery query = BvhQuery(true, solidMask, layerMask, origin, direction, Sight(noHit(), emptyBatch(after)));
+    uint mask = solidMask | layerMask;
+    traverseBvh(rtFrame.treeNodes, origin, direction, tMin, layerMask != 0u ? layerReach(tMax, origin) : tMax, mask,
+                groupsOf(mask), query);
+    return query.sight;
 }
 
 bool traceVisible(vec3 origin, vec3 direction, float tMax, uint mask)
 {
-    BvhQuery query = beginQuery(kSearchHit, origin, direction, false);
-    traverseBvh(rtFrame.treeNodes, origin, direction, 0.0, tMax, mask, true, query);
-    return query.hit.t == 0.0;
-}
-
-LayerBatch traceLayers(vec3 origin, vec3 direction, float tMax, uint mask, LayerKey after)
-{
-    BvhQuery query = beginQuery(kSearchLayers, origin, direction, false);
-    query.batch = emptyBatch(after);
-    traverseBvh(rtFrame.treeNodes, origin, direction, after.distance, tMax, mask, false, query);
-    return query.batch;
+    BvhQuery query =
+        BvhQuery(false, mask, 0u, origin, direction, Sight(noHit(), emptyBatch(LayerKey(0.0, 0u, 0u))));
+    traverseBvh(rtFrame.treeNodes, origin, direction, 0.0, tMax, mask, groupsOf(mask), query);
+    return query.sight.solid.t == 0.0;
 }
 
 #endif

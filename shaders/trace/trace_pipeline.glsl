@@ -9,11 +9,18 @@ layout(location = 0) rayPayloadEXT Hit recordPayload;
 layout(location = 1) rayPayloadEXT uint visiblePayload;
 layout(location = 2) rayPayloadEXT LayerBatch layersPayload;
 
-Hit traceClosest(vec3 origin, vec3 direction, float tMin, float tMax, uint mask, bool cullBack)
+Sight traceSight(vec3 origin, vec3 direction, float tMin, float tMax, uint solidMask, uint layerMask, LayerKey after)
 {
-    uint flags = cullBack ? gl_RayFlagsCullBackFacingTrianglesEXT : gl_RayFlagsNoneEXT;
-    traceRayEXT(sceneStructure, flags, mask, kHitGroupRecord, 0u, kMissRecord, origin, tMin, direction, tMax, 0);
-    return recordPayload;
+    recordPayload = noHit();
+    if (solidMask != 0u)
+        traceRayEXT(sceneStructure, gl_RayFlagsCullBackFacingTrianglesEXT, solidMask, kHitGroupRecord, 0u, kMissRecord,
+                    origin, tMin, direction, tMax, 0);
+    layersPayload = emptyBatch(after);
+    if (layerMask != 0u)
+        traceRayEXT(sceneStructure, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsSkipClosestHitShaderEXT, layerMask,
+                    kHitGroupLayers, 0u, kMissLayers, origin, tMin, direction,
+                    layerReach(recordPayload.t > 0.0 ? recordPayload.t : tMax, origin), 2);
+    return Sight(recordPayload, layersPayload);
 }
 
 bool traceVisible(vec3 origin, vec3 direction, float tMax, uint mask)
@@ -22,14 +29,6 @@ bool traceVisible(vec3 origin, vec3 direction, float tMax, uint mask)
     traceRayEXT(sceneStructure, gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, mask,
                 kHitGroupRecord, 0u, kMissVisible, origin, 0.0, direction, tMax, 1);
     return visiblePayload != 0u;
-}
-
-LayerBatch traceLayers(vec3 origin, vec3 direction, float tMax, uint mask, LayerKey after)
-{
-    layersPayload = emptyBatch(after);
-    traceRayEXT(sceneStructure, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsSkipClosestHitShaderEXT, mask, kHitGroupLayers, 0u,
-                kMissLayers, origin, after.distance, direction, tMax, 2);
-    return layersPayload;
 }
 
 #endif

@@ -18,33 +18,24 @@ void settleQuery(rayQueryEXT query, vec3 direction)
     }
 }
 
-Hit traceClosest(vec3 origin, vec3 direction, float tMin, float tMax, uint mask, bool cullBack)
+Hit closestSolid(vec3 origin, vec3 direction, float tMin, float tMax, uint mask)
 {
     rayQueryEXT query;
-    uint flags = cullBack ? gl_RayFlagsCullBackFacingTrianglesEXT : gl_RayFlagsNoneEXT;
-    rayQueryInitializeEXT(query, sceneStructure, flags, mask, origin, tMin, direction, tMax);
+    rayQueryInitializeEXT(query, sceneStructure, gl_RayFlagsCullBackFacingTrianglesEXT, mask, origin, tMin, direction,
+                          tMax);
     settleQuery(query, direction);
     if (rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT)
-        return Hit(0.0, 0u, 0u, vec2(0.0));
+        return noHit();
     return Hit(rayQueryGetIntersectionTEXT(query, true), rayQueryGetIntersectionInstanceCustomIndexEXT(query, true),
                rayQueryGetIntersectionPrimitiveIndexEXT(query, true),
                rayQueryGetIntersectionBarycentricsEXT(query, true));
 }
 
-bool traceVisible(vec3 origin, vec3 direction, float tMax, uint mask)
-{
-    rayQueryEXT query;
-    rayQueryInitializeEXT(query, sceneStructure, gl_RayFlagsTerminateOnFirstHitEXT, mask, origin, 0.0, direction, tMax);
-    settleQuery(query, direction);
-    return rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT;
-}
-
-LayerBatch traceLayers(vec3 origin, vec3 direction, float tMax, uint mask, LayerKey after)
+LayerBatch firstLayers(vec3 origin, vec3 direction, float tMin, float tMax, uint mask, LayerKey after)
 {
     LayerBatch batch = emptyBatch(after);
     rayQueryEXT query;
-    rayQueryInitializeEXT(query, sceneStructure, gl_RayFlagsNoOpaqueEXT, mask, origin, after.distance, direction,
-                          tMax);
+    rayQueryInitializeEXT(query, sceneStructure, gl_RayFlagsNoOpaqueEXT, mask, origin, tMin, direction, tMax);
     while (rayQueryProceedEXT(query)) {
         uint instance = rayQueryGetIntersectionInstanceCustomIndexEXT(query, false);
         uint triangle = rayQueryGetIntersectionPrimitiveIndexEXT(query, false);
@@ -55,6 +46,25 @@ LayerBatch traceLayers(vec3 origin, vec3 direction, float tMax, uint mask, Layer
             insertLayer(batch, Layer(LayerKey(distance, instance, triangle), t, barycentric));
     }
     return batch;
+}
+
+Sight traceSight(vec3 origin, vec3 direction, float tMin, float tMax, uint solidMask, uint layerMask, LayerKey after)
+{
+    Sight sight = Sight(noHit(), emptyBatch(after));
+    if (solidMask != 0u)
+        sight.solid = closestSolid(origin, direction, tMin, tMax, solidMask);
+    if (layerMask != 0u)
+        sight.layers = firstLayers(origin, direction, tMin,
+                                   layerReach(sight.solid.t > 0.0 ? sight.solid.t : tMax, origin), layerMask, after);
+    return sight;
+}
+
+bool traceVisible(vec3 origin, vec3 direction, float tMax, uint mask)
+{
+    rayQueryEXT query;
+    rayQueryInitializeEXT(query, sceneStructure, gl_RayFlagsTerminateOnFirstHitEXT, mask, origin, 0.0, direction, tMax);
+    settleQuery(query, direction);
+    return rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT;
 }
 
 #endif

@@ -10,6 +10,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include "accel/bvh_node.hpp"
 #include "accel/shader_traversal.hpp"
 
 namespace q3rt {
@@ -81,10 +82,10 @@ void expectValidTree(const Bvh& bvh, size_t itemCount) {
     EXPECT_EQ(present + bvh.rejectedCount, itemCount);
     std::vector<int> covered(bvh.order.size(), 0);
     for (const BvhNode& node : bvh.nodes)
-        for (const auto& [child, count] : {std::pair{node.left, node.leftCount}, {node.right, node.rightCount}})
+        for (const uint32_t child : node.child)
             if (child & kBvhLeafBit)
-                for (uint32_t i = 0; i < count; ++i)
-                    ++covered[(child & ~kBvhLeafBit) + i];
+                for (uint32_t i = 0; i < leafCount(child); ++i)
+                    ++covered[leafFirst(child) + i];
     for (const int count : covered)
         EXPECT_EQ(count, 1);
     EXPECT_LE(depthOf(bvh), kBvhMaxDepth);
@@ -121,6 +122,8 @@ TEST(Bvh, NonFiniteItemsAreRejectedAndCounted) {
     const Bvh bvh = buildSah(triangleBounds(positions));
     EXPECT_EQ(bvh.rejectedCount, 2u);
     EXPECT_EQ(bvh.order.size(), 1u);
+    const std::vector<Bounds> far{{vec3(0), vec3(2 * kBvhFarthest)}, {vec3(-kBvhFarthest), vec3(kBvhFarthest)}};
+    EXPECT_EQ(buildMorton(far).rejectedCount, 1u);
 }
 
 TEST(Bvh, ThreadsGiveTheSameTree) {
@@ -233,7 +236,7 @@ TEST(Traversal, ClosedMeshDoesNotLeakAtAnyDistance) {
 
 TEST(Traversal, InstancesMasksAcceptAndAnyHit) {
     const std::vector<vec3> triangle{{10, -1, -1}, {10, 1, -1}, {10, 0, 1}};
-    const std::vector<uint8_t> transparent{0};
+    const std::vector<TriangleLabel> transparent{{.number = 0, .flags = 0}};
     const Bvh bvh = buildSah(triangleBounds(triangle));
     TestScene scene;
     BvhInstance near = scene.addModel(bvh, triangle, transparent);
@@ -254,6 +257,65 @@ TEST(Traversal, InstancesMasksAcceptAndAnyHit) {
     EXPECT_TRUE(traceShader(scene, eye, forward, 11, 100, 0xff, true).hit);
     scene.accept = [](uint32_t, uint32_t) { return false; };
     EXPECT_FALSE(traceShader(scene, eye, forward, 0, 100).hit);
+}
+
+TEST(Traversal, SubtreesWithoutTheGroupArePassedBy) {
+    Random random(6);
+    const std::vector<vec3> positions = randomTriangles(random, 4000, 500, 60);
+    std::vector<uint8_t> groups(4000, kBvhSolidGroup);
+    for (size_t i = 0; i < groups.size(); i += 100)
+        groups[i] = kBvhOtherGroup;
+    const Bvh mixed = buildSah(triangleBounds(positions), {.maxLeafItems = 1, .groups = groups});
+    std::vector<vec3> few;
+    for (size_t i = 0; i < groups.size(); i += 100)
+        few.insert(few.end(), positions.begin() + 3 * i, positions.begin() + 3 * i + 3);
+    const TestScene scene = singleModelScene(mixed, positions);
+    const TestScene alone = singleModelScene(buildSah(triangleBounds(few), {.maxLeafItems = 1}), few);
+    size_t hits = 0, visits = 0, solidVisits = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const vec3 origin = uniformPoint(random, 700), direction = uniformDirection(random);
+        const TestHit found = traceShader(scene, origin, direction, 0, 1e6f, 0xff, false, kBvhOtherGroup);
+        const TestHit expected = traceShader(alone, origin, direction, 0, 1e6f);
+        ASSERT_EQ(found.hit, expected.hit);
+        ASSERT_EQ(found.t, expected.t);
+        ASSERT_TRUE(!found.hit || found.triangle == 100 * expected.triangle);
+        hits += found.hit ? 1 : 0;
+        visits += found.visitCount;
+        solidVisits += traceShader(scene, origin, direction, 0, 1e6f).visitCount;
+    }
+    EXPECT_GT(hits, 100u);
+    EXPECT_LT(visits, 2 * solidVisits / 3);
+}
+
+TEST(Traversal, NeverVisitsANodeTwice) {
+    Random random(7);
+    // All boxes overlap, all triangles are missed by a hair or not finite, and instances are singular, huge or flat.
+    std::vector<vec3> positions;
+    for (int i = 0; i < 3000; ++i)
+        for (const vec3& corner : {vec3(-100, -100, 0), vec3(100, -100, 0), vec3(0, 100, 0)})
+            positions.push_back(corner + vec3(0, 0, static_cast<float>(i % 3) * 1e-3f));
+    for (int i = 0; i < 300; ++i)
+        positions[static_cast<size_t>(random() % positions.size())] = vec3(i % 2 ? 0.0f : NAN, INFINITY, 0);
+    TestScene scene = singleModelScene(buildSah(triangleBounds(positions)), positions);
+    const BvhInstance upright = scene.instances[0];
+    std::vector<Bounds> bounds{{vec3(-200), vec3(200)}};
+    for (const float scale : {0.0f, 1e-30f, 1e18f, -1.0f}) {
+        BvhInstance odd = upright;
+        odd.modelFromWorld[2] *= scale;
+        scene.instances.push_back(odd);
+        bounds.push_back(bounds[0]);
+    }
+    scene.buildScene(bounds);
+    uint64_t most = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const vec3 origin = uniformPoint(random, 150);
+        vec3 direction = i % 5 == 0 ? vec3(0) : uniformDirection(random);
+        if (i % 7 == 0) direction[i % 3] = 0;
+        if (i % 11 == 0) direction[i % 3] = i % 2 ? INFINITY : NAN;
+        most = std::max(most, traceShader(scene, origin, direction, 0, 1e30f).visitCount);
+    }
+    EXPECT_GT(most, 1000u) << "the scene is meant to be bad";
+    EXPECT_LE(most, scene.mostVisits());
 }
 
 TEST(Traversal, FiveThousandInstancesAndEmptyScenes) {

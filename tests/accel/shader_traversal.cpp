@@ -11,30 +11,45 @@ using uint = uint32_t;
 
 #include "lib/intersect.glsl"
 
+uint64_t visitCount = 0; // of nodes, by the ray under way
+
 struct BvhQuery {
     const TestScene* scene;
+    bool anyHit;
     TestHit hit;
 };
 
-BvhNode loadBvhNode(BVH_TABLE table, uint index) { return reinterpret_cast<const BvhNode*>(table)[index]; }
-BvhTriangle loadBvhTriangle(BVH_TABLE table, uint index) { return reinterpret_cast<const BvhTriangle*>(table)[index]; }
+BvhNode loadBvhNode(BVH_TABLE table, uint index) {
+    ++visitCount;
+    return reinterpret_cast<const BvhNode*>(table)[index];
+}
+uint loadBvhChild(BVH_TABLE table, uint index, uint slot) {
+    return reinterpret_cast<const BvhNode*>(table)[index].child[slot];
+}
+float loadBvhCoordinate(BVH_TABLE table, uint index, uint corner, uint axis) {
+    return (&reinterpret_cast<const BvhTriangle*>(table)[index].corner0.x)[kBvhCornerWords * corner + axis];
+}
 BvhInstance loadBvhInstance(BvhQuery& query, uint item) {
     return query.scene->instances[query.scene->sceneOrder[item]];
 }
 
-bool onBvhTriangle(BvhQuery& query, const BvhInstance& instance, const BvhTriangle& triangle, const TriangleHit& test) {
-    if (triangle.opaque == 0 && query.scene->accept && !query.scene->accept(instance.customIndex, triangle.number))
-        return false;
+float onBvhTriangle(BvhQuery& query, uint item, BVH_TABLE table, uint index, const TriangleHit& test, float tMax) {
+    const BvhTriangle& triangle = reinterpret_cast<const BvhTriangle*>(table)[index];
+    const BvhInstance& instance = query.scene->instances[query.scene->sceneOrder[item]];
+    if ((triangle.flags & kBvhTriangleOpaque) == 0 && query.scene->accept &&
+        !query.scene->accept(instance.customIndex, triangle.number))
+        return tMax;
     query.hit = {true, test.t, instance.customIndex, triangle.number, test.barycentric, test.frontFace};
-    return true;
+    return query.anyHit ? kBvhFound : test.t;
 }
 
 #include "trace/bvh_traverse.glsl"
 
 } // namespace
 
-BvhInstance TestScene::addModel(const Bvh& bvh, std::span<const vec3> positions, std::span<const uint8_t> opaque) {
-    models.push_back({bvh.nodes, leafTriangles(bvh, positions, opaque)});
+BvhInstance TestScene::addModel(const Bvh& bvh, std::span<const vec3> positions,
+                                std::span<const TriangleLabel> labels) {
+    models.push_back({bvh.nodes, leafTriangles(bvh, positions, labels)});
     BvhInstance instance{};
     instance.modelFromWorld[0] = {1, 0, 0, 0};
     instance.modelFromWorld[1] = {0, 1, 0, 0};
@@ -42,7 +57,17 @@ BvhInstance TestScene::addModel(const Bvh& bvh, std::span<const vec3> positions,
     instance.nodes = reinterpret_cast<uint64_t>(models.back().nodes.data());
     instance.triangles = reinterpret_cast<uint64_t>(models.back().triangles.data());
     instance.mask = 0xff;
+    for (uint32_t& masks : instance.partMasks)
+        masks = 0xffffffffu;
     return instance;
+}
+
+uint64_t TestScene::mostVisits() const {
+    uint64_t sum = sceneNodes.size();
+    for (const BvhInstance& instance : instances)
+        for (const Model& model : models)
+            if (reinterpret_cast<uint64_t>(model.nodes.data()) == instance.nodes) sum += model.nodes.size();
+    return sum;
 }
 
 void TestScene::buildScene(const std::vector<Bounds>& worldBounds) {
@@ -52,10 +77,12 @@ void TestScene::buildScene(const std::vector<Bounds>& worldBounds) {
 }
 
 TestHit traceShader(const TestScene& scene, const vec3& origin, const vec3& direction, float tMin, float tMax,
-                    uint32_t mask, bool anyHit) {
-    BvhQuery query{&scene, {}};
-    traverseBvh(reinterpret_cast<uint64_t>(scene.sceneNodes.data()), origin, direction, tMin, tMax, mask, anyHit,
+                    uint32_t mask, bool anyHit, uint32_t groups) {
+    BvhQuery query{&scene, anyHit, {}};
+    visitCount = 0;
+    traverseBvh(reinterpret_cast<uint64_t>(scene.sceneNodes.data()), origin, direction, tMin, tMax, mask, groups,
                 query);
+    query.hit.visitCount = visitCount;
     return query.hit;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "accel/bvh_node.hpp"
+
 namespace q3rt::test {
 namespace {
 
@@ -57,19 +59,17 @@ bool ExactScene::isHit(const dvec3& origin, const dvec3& direction, double tMin,
     while (!open.empty()) {
         const BvhNode& node = m_bvh.nodes[open.back()];
         open.pop_back();
-        const auto visit = [&](const vec3& mins, const vec3& maxs, uint32_t child, uint32_t count) {
-            if (!meetsBox(mins, maxs, origin, reciprocal, tMin, tMax)) return false;
+        for (uint32_t slot = 0; slot < kBvhWidth; ++slot) {
+            const Bounds box = childBounds(node, slot);
+            if (box.empty() || !meetsBox(box.mins, box.maxs, origin, reciprocal, tMin, tMax)) continue;
+            const uint32_t child = node.child[slot];
             if ((child & kBvhLeafBit) == 0) {
                 open.push_back(child);
-                return false;
+                continue;
             }
-            for (uint32_t i = 0; i < count; ++i)
-                if (meets(m_bvh.order[(child & ~kBvhLeafBit) + i], origin, direction, tMin, tMax)) return true;
-            return false;
-        };
-        if (visit(node.leftMins, node.leftMaxs, node.left, node.leftCount) ||
-            visit(node.rightMins, node.rightMaxs, node.right, node.rightCount))
-            return true;
+            for (uint32_t i = 0; i < leafCount(child); ++i)
+                if (meets(m_bvh.order[leafFirst(child) + i], origin, direction, tMin, tMax)) return true;
+        }
     }
     return false;
 }

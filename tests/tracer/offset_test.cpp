@@ -6,6 +6,7 @@
 #include <random>
 
 #include "shader_text.hpp"
+#include "shaders/shared/bvh.h"
 
 namespace q3rt::shader {
 #include "lib/intersect.glsl"
@@ -52,10 +53,10 @@ int countSelfHits(float distance, int count, bool instanced) {
         if (instanced) origin -= shift; // what the intersector does to the ray
         vec3 direction(gauss(generator), gauss(generator), gauss(generator));
         if (dot(direction, normal) < 0) direction = -direction;
-        const shader::RayFrame frame = shader::makeRayFrame(direction, shader::slabReciprocal(direction));
-        hits += shader::intersectTriangle(origin, frame, direction, corner[0], corner[1], corner[2], 0.0f, 1e30f).hit
-                    ? 1
-                    : 0;
+        const shader::TriangleRay ray = shader::makeTriangleRay(origin, direction, shader::slabReciprocal(direction));
+        for (vec3& c : corner)
+            c = shader::componentsOf(c, ray.axes);
+        hits += shader::intersectTriangle(ray, corner[0], corner[1], corner[2], 0.0f, 1e30f).hit ? 1 : 0;
     }
     return hits;
 }

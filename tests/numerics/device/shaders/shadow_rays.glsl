@@ -13,3 +13,4 @@ float layerDistance(uint instance, uint triangle, vec2 barycentric, float t, vec
 {
     return -1.0;
 }
+float layerReach(float t, vec3 origin) { return t; }
