@@ -50,9 +50,9 @@ class GridExplainer {
         if (cell.valid == 0 || length == 0.0f) return;
         const vec3 point = pointOf(index), normal = cell.direction / length;
         const int cluster = m_world.clusterOf(point);
-        const size_t last = m_tables.rows.size() - 1;
-        const size_t at = cluster >= 0 && static_cast<size_t>(cluster) < last ? static_cast<size_t>(cluster) : last;
-        const RtLightRow& row = m_tables.rows[at];
+        const RtLightRow& row = cluster >= 0 && cluster < m_world.bsp.clusterCount
+                                    ? m_tables.rows.ofCluster(static_cast<size_t>(cluster))
+                                    : m_tables.rows.outside();
         vec3 explained = triangleLight(point, normal, row, random);
         if (row.seesSky != 0) explained += skyLight(point, normal, random, cell.skySeen);
         const float whole = largestOf(cell.directed);
@@ -69,13 +69,15 @@ class GridExplainer {
 
     /// Light from the middle of each triangle, shadowed for some chosen in proportion to what they give.
     vec3 triangleLight(const vec3& point, const vec3& normal, const RtLightRow& row, std::mt19937& random) const {
-        const size_t stride = (row.count + kLargestRow - 1) / kLargestRow;
+        const size_t stride = (row.facing + kLargestRow - 1) / kLargestRow;
         std::array<float, kLargestRow> running;
         std::array<const RtTriangleLight*, kLargestRow> lights;
         size_t count = 0;
         float sum = 0;
-        for (size_t i = 0; stride > 0 && i < row.count; i += stride) {
-            const RtTriangleLight& light = m_tables.triangles[m_tables.indices[row.first + i]];
+        for (size_t i = 0; stride > 0 && i < row.facing; i += stride) {
+            const uint32_t number = m_tables.rows.entries[row.first + i].light;
+            if (number >= m_tables.triangles.size()) continue;
+            const RtTriangleLight& light = m_tables.triangles[number];
             sum += largestOf(unshadowed(point, normal, light)) * static_cast<float>(stride);
             running[count] = sum;
             lights[count++] = &light;

@@ -181,24 +181,30 @@ void ViewTableBuilder::addModelPart(const ViewGeometry& geometry, const EntitySu
 
 void ViewTableBuilder::addDynamicParts(const World* world, const ViewGeometry& geometry, ModelGeometry& models,
                                        ViewTables& out) {
-    std::map<std::tuple<uint32_t, SurfaceClass, bool>, DynamicPart> groups;
+    std::map<std::tuple<uint32_t, SurfaceClass, bool, bool>, DynamicPart> groups;
     for (uint32_t s = 0; s < geometry.surfaces.size(); ++s) {
         const EntitySurface& surface = geometry.surfaces[s];
-        const auto surfaceClass = classifySurface(m_materials.drawn(surface.material));
+        const Material& material = m_materials.drawn(surface.material);
+        const auto surfaceClass = classifySurface(material);
         if (!surfaceClass || surface.indexCount < 3) continue;
         if (surface.source && surface.singleFrame && !surface.deformed) {
             addModelPart(geometry, surface, *surfaceClass, models, out);
             continue;
         }
-        DynamicPart& part = groups[{surface.entity, *surfaceClass, surface.isPoly}];
+        // A sprite turns with the eye: light must not depend on who looks.
+        const bool castsShadow = !deformsWithView(material);
+        DynamicPart& part = groups[{surface.entity, *surfaceClass, surface.isPoly, castsShadow}];
         part.entity = surface.entity;
         part.isPoly = surface.isPoly;
+        part.castsShadow = castsShadow;
         part.surfaceClass = *surfaceClass;
         part.surfaces.push_back(s);
     }
     for (auto& [key, part] : groups) {
         const EntityRecord& record = geometry.entities[part.entity];
-        const uint8_t mask = instanceMask(part.surfaceClass, visibilityOf(record.flags));
+        Visibility visibility = visibilityOf(record.flags);
+        visibility.shadow &= part.castsShadow;
+        const uint8_t mask = instanceMask(part.surfaceClass, visibility);
         if (mask == 0) continue;
         RtInstance instance{};
         instance.firstSurface = static_cast<uint32_t>(out.surfaces.size());

@@ -17,7 +17,8 @@ namespace q3rt {
 struct DynamicPart {
     uint32_t entity = 0;
     SurfaceClass surfaceClass = SurfaceClass::Solid;
-    bool isPoly = false;            ///< scene polys are apart: they come and go, the world's deformed surfaces stay
+    bool isPoly = false; ///< scene polys are apart: they come and go, the world's deformed surfaces stay
+    bool castsShadow = true;
     std::vector<uint32_t> surfaces; ///< in ViewGeometry::surfaces
     uint32_t firstIndex = 0, triangleCount = 0; ///< in ViewTables::indices; relative to firstVertex
     uint32_t firstVertex = 0, vertexCount = 0;  ///< in ViewGeometry::vertices

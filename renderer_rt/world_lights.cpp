@@ -103,8 +103,6 @@ std::vector<RtLight> makeOtherLights(const LightSet& lights) {
                        .size = 0,
                        .axis = vec3(0.0f),
                        .cosOuter = -1.0f});
-    for (const PointLight& point : lights.points)
-        out.push_back(makePointLight(point));
     return out;
 }
 
@@ -141,17 +139,19 @@ std::vector<bool> findSkyClusters(const World& world, const MaterialLibrary& mat
     return sees;
 }
 
-LightTables buildLightTables(const World& world, const LightSet& lights, const std::vector<bool>& seesSky) {
+LightTables buildLightTables(const World& world, const MaterialLibrary& materials, const LightSet& lights,
+                             const std::vector<bool>& seesSky) {
     LightTables tables;
     for (const TriangleLight& light : lights.triangles)
         tables.triangles.push_back(makeTriangleLight(light));
+    for (const PointLight& light : lights.points)
+        tables.points.push_back(makePointLight(light));
     tables.others = makeOtherLights(lights);
-    const LightTable table = buildLightTable(world, lights, true);
-    tables.indices = table.lights;
-    for (size_t r = 0; r + 1 < table.offset.size(); ++r)
-        tables.rows.push_back({.first = table.offset[r],
-                               .count = table.offset[r + 1] - table.offset[r],
-                               .seesSky = r < seesSky.size() ? (seesSky[r] ? 1u : 0u) : 1u});
+    tables.rows = buildLightRows(world, materials, describeRowLights(lights.triangles, lights.points));
+    for (size_t r = 0; r < tables.rows.rows.size(); ++r) {
+        const size_t cluster = r / kNormalClassCount;
+        tables.rows.rows[r].seesSky = cluster >= seesSky.size() || seesSky[cluster] ? 1 : 0;
+    }
     tables.nodes = makeNodes(world);
     tables.grid = makeGrid(world);
     return tables;
@@ -165,22 +165,41 @@ TriangleLight moveLight(const TriangleLight& light, const mat4& worldFromModel) 
     return moved;
 }
 
+TriangleLight deformLight(const TriangleLight& light, const ViewGeometry& geometry, const EntitySurface& surface) {
+    TriangleLight moved = light;
+    const uint32_t first = surface.firstIndex + 3 * light.triangle;
+    if (3 * light.triangle + 2 >= surface.indexCount) return moved;
+    const mat4& worldFromModel = geometry.entities[surface.entity].worldFromModel;
+    for (uint32_t k = 0; k < 3; ++k)
+        moved.corner[k] = vec3(worldFromModel * vec4(geometry.vertices[geometry.indices[first + k]].position, 1.0f));
+    if (light.flipped) std::swap(moved.corner[1], moved.corner[2]);
+    measureTriangle(moved);
+    return moved;
+}
+
 WorldLights::WorldLights(Device& device, Uploader& uploader, const World& world, const MaterialLibrary& materials,
                          const LightSet& lights) {
-    LightTables tables = buildLightTables(world, lights, findSkyClusters(world, materials));
+    LightTables tables = buildLightTables(world, materials, lights, findSkyClusters(world, materials));
     explainGrid(world, materials, tables);
     m_others = tables.others;
-    for (size_t i = 0; i < lights.triangles.size(); ++i)
-        if (lights.triangles[i].bspModel != 0) m_ofMovers.emplace_back(i, lights.triangles[i]);
-    if (!m_ofMovers.empty()) m_resting = tables.triangles;
+    for (size_t i = 0; i < lights.triangles.size(); ++i) {
+        const TriangleLight& light = lights.triangles[i];
+        if (light.reachQu > 0)
+            m_deformed[light.surface].push_back({i, light});
+        else if (light.bspModel != 0)
+            m_ofMovers.push_back({i, light});
+    }
+    if (!m_ofMovers.empty() || !m_deformed.empty()) m_resting = tables.triangles;
     m_triangles = makeTable(device, uploader, tables.triangles, "triangle lights");
-    m_rows = makeTable(device, uploader, tables.rows, "light rows");
-    m_indices = makeTable(device, uploader, tables.indices, "light indices");
+    m_points = makeTable(device, uploader, tables.points, "point lights");
+    m_rows = makeTable(device, uploader, tables.rows.rows, "light rows");
+    m_entries = makeTable(device, uploader, tables.rows.entries, "light entries");
     m_nodes = makeTable(device, uploader, tables.nodes, "map nodes");
     m_grid = makeTable(device, uploader, tables.grid, "light grid");
     m_triangleCount = tables.triangles.size();
-    m_rowEntryCount = tables.indices.size();
-    m_clusterCount = static_cast<uint32_t>(tables.rows.size()) - 1;
+    m_pointCount = tables.points.size();
+    m_rowEntryCount = tables.rows.entries.size();
+    m_clusterCount = static_cast<uint32_t>(world.bsp.clusterCount);
     m_gridOrigin = world.grid.origin;
     m_gridCellSize = world.grid.cellSize;
     m_gridCounts = world.grid.empty() ? ivec3(0) : world.grid.counts;
@@ -200,16 +219,29 @@ std::vector<RtTriangleLight> WorldLights::moveTriangles(const ViewGeometry& geom
         // The instance that shows the light is not made of these corners.
         out.error += 1.7320508f * kMatrixInverseError * largestComponent(out.corner);
     }
+    if (!m_deformed.empty()) moveDeformed(geometry, moved);
     return moved;
+}
+
+void WorldLights::moveDeformed(const ViewGeometry& geometry, std::vector<RtTriangleLight>& moved) const {
+    for (const EntitySurface& surface : geometry.surfaces) {
+        const auto found = m_deformed.find(surface.worldSurface);
+        if (found == m_deformed.end()) continue;
+        if (moved.empty()) moved = m_resting;
+        for (const auto& [index, light] : found->second)
+            moved[index] = makeTriangleLight(deformLight(light, geometry, surface));
+    }
 }
 
 void WorldLights::describe(RtFrame& frame) const {
     frame.triangleLights = m_triangles.address();
     frame.lightRows = m_rows.address();
-    frame.lightIndices = m_indices.address();
+    frame.lightEntries = m_entries.address();
+    frame.pointLights = m_points.address();
     frame.nodes = m_nodes.address();
     frame.grid = m_grid.address();
     frame.triangleLightCount = static_cast<uint32_t>(m_triangleCount);
+    frame.pointLightCount = static_cast<uint32_t>(m_pointCount);
     frame.clusterCount = m_clusterCount;
     frame.gridOrigin = m_gridOrigin;
     frame.gridCellSize = m_gridCellSize;

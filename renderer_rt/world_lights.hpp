@@ -2,11 +2,12 @@
 // The lights, the light table, the tree that finds a point's row in it, and the light grid: built at load, read by the
 // direct-illumination stage.
 
+#include <unordered_map>
 #include <vector>
 
 #include "gpu/uploader.hpp"
 #include "scene/entity_geometry.hpp"
-#include "scene/lights.hpp"
+#include "scene/light_rows.hpp"
 #include "shaders/shared/rt_scene.h"
 
 namespace q3rt {
@@ -14,14 +15,15 @@ namespace q3rt {
 /// What is uploaded, as plain tables: pure, testable.
 struct LightTables {
     std::vector<RtTriangleLight> triangles;
-    std::vector<RtLight> others;  ///< suns, sky, point lights; a frame's dynamic lights follow them
-    std::vector<RtLightRow> rows; ///< a cluster each, then one for "outside"
-    std::vector<uint32_t> indices;
+    std::vector<RtLight> points; ///< numbered on after the triangles
+    std::vector<RtLight> others; ///< suns and sky, in no row; a frame's dynamic lights follow them
+    LightRows rows;
     std::vector<RtNode> nodes;
     std::vector<RtGridCell> grid;
 };
 /// `seesSky`: by cluster, see findSkyClusters().
-LightTables buildLightTables(const World& world, const LightSet& lights, const std::vector<bool>& seesSky);
+LightTables buildLightTables(const World& world, const MaterialLibrary& materials, const LightSet& lights,
+                             const std::vector<bool>& seesSky);
 
 /// Clusters from which any part of a sky surface may be seen; all of them if a sky surface is in no cluster.
 std::vector<bool> findSkyClusters(const World& world, const MaterialLibrary& materials);
@@ -32,25 +34,37 @@ RtLight makeDynamicLight(const vec3& origin, float radiusQu, const vec3& color);
 /// A light of a mover where the mover is. Movers are rigid.
 TriangleLight moveLight(const TriangleLight& light, const mat4& worldFromModel);
 
+/// A light on its surface as the view has it, deformed: what glows is what is seen, and what stops rays to others.
+TriangleLight deformLight(const TriangleLight& light, const ViewGeometry& geometry, const EntitySurface& surface);
+
 class WorldLights {
   public:
     WorldLights(Device& device, Uploader& uploader, const World& world, const MaterialLibrary& materials,
                 const LightSet& lights);
-    /// Fills the frame's light addresses and counts, all but `lights` (see others()).
+    /// Fills the frame's light addresses and counts, all but those of `lights` (see others()).
     void describe(RtFrame& frame) const;
-    /// All triangle lights, those of movers where the view has them; empty if all are where describe() says.
+    /// All triangle lights, those of movers and deformed surfaces where the view has them; empty if all are where
+    /// describe() says.
     std::vector<RtTriangleLight> moveTriangles(const ViewGeometry& geometry) const;
     const std::vector<RtLight>& others() const { return m_others; }
     size_t triangleCount() const { return m_triangleCount; }
+    size_t pointCount() const { return m_pointCount; }
     size_t rowEntryCount() const { return m_rowEntryCount; }
     uint32_t clusterCount() const { return m_clusterCount; }
 
   private:
+    struct MovingLight {
+        size_t index; ///< in the table
+        TriangleLight light;
+    };
+    void moveDeformed(const ViewGeometry& geometry, std::vector<RtTriangleLight>& moved) const;
+
     std::vector<RtLight> m_others;
-    std::vector<RtTriangleLight> m_resting;                   ///< all triangle lights; kept if movers have some
-    std::vector<std::pair<size_t, TriangleLight>> m_ofMovers; ///< by index
-    Buffer m_triangles, m_rows, m_indices, m_nodes, m_grid;
-    size_t m_triangleCount = 0, m_rowEntryCount = 0;
+    std::vector<RtTriangleLight> m_resting; ///< all triangle lights; kept if some move
+    std::vector<MovingLight> m_ofMovers;
+    std::unordered_map<int, std::vector<MovingLight>> m_deformed; ///< by world surface
+    Buffer m_triangles, m_points, m_rows, m_entries, m_nodes, m_grid;
+    size_t m_triangleCount = 0, m_pointCount = 0, m_rowEntryCount = 0;
     uint32_t m_clusterCount = 0;
     vec3 m_gridOrigin{0}, m_gridCellSize{1};
     ivec3 m_gridCounts{0};

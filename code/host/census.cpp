@@ -95,11 +95,10 @@ void addLights(const World& world, const MaterialLibrary& materials, MapCensus& 
     census.suns = lights.suns.size();
     census.skyLights = lights.skies.size();
     census.pointLights = lights.points.size();
-    const LightTable table = buildLightTable(world, lights, true);
-    // The last row is for outside, which sees everything.
-    if (table.offset.size() > 2)
-        census.meanVisibleLights =
-            static_cast<double>(table.offset[table.offset.size() - 2]) / static_cast<double>(table.offset.size() - 2);
+    const LightRows table = buildLightRows(world, materials, describeRowLights(lights.triangles, lights.points));
+    const auto clusters = static_cast<size_t>(world.bsp.clusterCount);
+    for (size_t cluster = 0; cluster < clusters; ++cluster)
+        census.meanVisibleLights += static_cast<double>(table.ofCluster(cluster).count) / static_cast<double>(clusters);
 }
 
 } // namespace

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "scene/lights.hpp"
+#include "scene/light_rows.hpp"
 #include "scene/world.hpp"
 
 namespace q3rt {
@@ -19,7 +19,7 @@ struct MapCensus {
     bool lightGrid = false;
     vec3 sizeQu{0}; ///< of the drawn vertices
     size_t emissiveFaces = 0, triangleLights = 0, suns = 0, skyLights = 0, pointLights = 0;
-    double meanVisibleLights = 0; ///< triangle lights that a cluster may see, mean over clusters
+    double meanVisibleLights = 0; ///< triangle and point lights that a cluster may see, mean over clusters
     /// What a renderer needs for this map -> drawn faces (or lights, entities) that need it; only what is there.
     std::map<std::string, size_t> requirements;
 };

@@ -2,7 +2,9 @@
 
 #include "scene/deform.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "scene/deform_sprites.hpp"
@@ -15,6 +17,7 @@ namespace {
 constexpr double kBulgeTableSteps = 1024.0 / (2.0 * std::numbers::pi); // sine table entries a radian
 constexpr float kNoiseScale = 0.98f;       // lattice cells a unit of position: never exactly on a lattice point
 constexpr float kNoiseAxisOffset = 100.0f; // lattice distance between the three components' noises
+constexpr float kLongestNormal = 1.002f;   // a normal that fastNormalize has made
 constexpr float kLowestShadowSlope = 0.5f; // flatter light is lifted: keeps shadows short
 
 void deformWave(const Deform& deform, double time, std::vector<Vertex>& vertices) {
@@ -109,6 +112,39 @@ void deformVertices(const Material& material, const DeformContext& context, std:
             break;
         }
     }
+}
+
+float deformReachQu(const Material& material) {
+    float reach = 0;
+    for (const Deform& deform : material.deforms) {
+        const float wave = std::abs(deform.wave.base) + std::abs(deform.wave.amplitude);
+        switch (deform.kind) {
+        case DeformKind::None:
+        case DeformKind::Normal:
+            break;
+        case DeformKind::Wave:
+            reach += wave * kLongestNormal;
+            break;
+        case DeformKind::Move:
+            reach += wave * glm::length(deform.move);
+            break;
+        case DeformKind::Bulge:
+            reach += std::abs(deform.bulgeHeight) * kLongestNormal;
+            break;
+        case DeformKind::AutoSprite:
+        case DeformKind::AutoSprite2:
+        case DeformKind::ProjectionShadow:
+        case DeformKind::Text:
+            return std::numeric_limits<float>::infinity();
+        }
+    }
+    return reach;
+}
+
+bool deformsWithView(const Material& material) {
+    return std::any_of(material.deforms.begin(), material.deforms.end(), [](const Deform& deform) {
+        return deform.kind == DeformKind::AutoSprite || deform.kind == DeformKind::AutoSprite2;
+    });
 }
 
 } // namespace q3rt

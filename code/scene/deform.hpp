@@ -29,4 +29,11 @@ struct DeformContext {
 void deformVertices(const Material& material, const DeformContext& context, std::vector<Vertex>& vertices,
                     std::vector<uint32_t>& indices);
 
+/// How far the material's deforms move a vertex of unit normal at most, at any time and from any view, qu. Infinite
+/// where the size of the surface decides (sprites) or nothing does (text, shadows).
+float deformReachQu(const Material& material);
+
+/// Do any of the material's deforms turn with the view?
+bool deformsWithView(const Material& material);
+
 } // namespace q3rt

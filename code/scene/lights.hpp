@@ -16,9 +16,12 @@ struct TriangleLight {
     float areaQu2 = 0;
     vec3 radiance{0}; ///< luxel units / pi, colour included
     bool twoSided = false;
-    int surface = -1; ///< world surface it came from
-    int bspModel = 0; ///< 0 world, else the submodel that moves it
-    int cluster = -1; ///< of its centre, nudged to the lit side; -1 outside
+    int surface = -1;      ///< world surface it came from
+    uint32_t triangle = 0; ///< its number in that surface
+    bool flipped = false;  ///< lit from behind: corners 1 and 2 are exchanged against the surface's
+    int bspModel = 0;      ///< 0 world, else the submodel that moves it
+    float reachQu = 0;     ///< deforms move it at most so far from here, at any time; may be infinite
+    bool moves() const { return bspModel != 0 || reachQu > 0; }
 };
 
 struct SunLight {
@@ -66,16 +69,10 @@ struct LightSet {
     size_t zeroAreaTriangles = 0;   ///< of emissive surfaces, left out: they give no light
 };
 
+/// Normal and area from the corners; false if it has no area (then it gives no light).
+bool measureTriangle(TriangleLight& light);
+
 /// All lights of a map. Emissive surfaces are those drawn with q3map_surfacelight > 0 and no sky.
 LightSet extractLights(const World& world, const MaterialLibrary& materials);
-
-/// Row = cluster (last row: outside, all lights): indices, ascending, of the triangle lights potentially visible from
-/// it. A light is in a row if any cluster that it touches can see or be seen from the row's. Lights of movers, and
-/// lights that touch no cluster, are in all rows. Without `cull`, or without visibility data, so is every light.
-struct LightTable {
-    std::vector<uint32_t> offset; ///< clusterCount + 2 entries: row r is [offset[r], offset[r + 1])
-    std::vector<uint32_t> lights;
-};
-LightTable buildLightTable(const World& world, const LightSet& lights, bool cull);
 
 } // namespace q3rt

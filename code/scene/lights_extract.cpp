@@ -6,6 +6,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "scene/deform.hpp"
 #include "scene/lights_build.hpp"
 #include "scene/world_math.hpp"
 
@@ -14,9 +15,6 @@ namespace {
 
 constexpr float kRadiosityOfValue = 0.75f; // of q3map_surfacelight, luxel units
 constexpr float kSkyLightHalf = 0.5f;      // mean sine of elevation over the upper hemisphere
-/// Light triangles lie on the planes that divide the map: half a unit off the face is inside the leaf that it lights,
-/// and less than the thinnest leaf.
-constexpr float kOffFaceQu = 0.5f;
 
 vec3 scaleToLargest(const vec3& color) {
     const float largest = std::max({color.x, color.y, color.z});
@@ -92,31 +90,22 @@ class Extractor {
         light.twoSided = material.cull == CullMode::None;
         light.surface = number;
         light.bspModel = surface.bspModel;
+        // A sprite turns with the eye. Light must not depend on who looks: it stays where the map has it.
+        light.reachQu = deformsWithView(material) ? 0.0f : deformReachQu(material);
+        light.flipped = material.cull == CullMode::Back;
         const size_t before = m_lights.triangles.size();
         for (uint32_t i = 0; i + 2 < surface.indexCount; i += 3) {
             for (uint32_t k = 0; k < 3; ++k) {
                 light.corner[k] = m_world.vertices[m_world.indices[surface.firstIndex + i + k]].position;
             }
-            if (material.cull == CullMode::Back) std::swap(light.corner[1], light.corner[2]);
-            addTriangle(light);
+            if (light.flipped) std::swap(light.corner[1], light.corner[2]);
+            light.triangle = i / 3;
+            if (measureTriangle(light))
+                m_lights.triangles.push_back(light);
+            else
+                ++m_lights.zeroAreaTriangles;
         }
         if (m_lights.triangles.size() > before) ++m_lights.emissiveSurfaces;
-    }
-
-    void addTriangle(TriangleLight& light) {
-        // In double: slivers of far away geometry keep a direction.
-        const dvec3 a(light.corner[0]), b(light.corner[1]), c(light.corner[2]);
-        const dvec3 cross = glm::cross(c - a, b - a);
-        const double length = glm::length(cross);
-        light.areaQu2 = static_cast<float>(length * 0.5);
-        if (!(light.areaQu2 > 0.0f)) {
-            ++m_lights.zeroAreaTriangles;
-            return;
-        }
-        light.normal = vec3(cross / length);
-        const vec3 centre((a + b + c) / 3.0);
-        light.cluster = m_world.clusterOf(centre + light.normal * kOffFaceQu);
-        m_lights.triangles.push_back(light);
     }
 };
 
@@ -137,6 +126,17 @@ vec3 lightColorOf(const Material& material, const MaterialLibrary& materials) {
 vec3 directionOfAngles(float yawDegrees, float pitchDegrees) {
     const float yaw = glm::radians(yawDegrees), pitch = glm::radians(pitchDegrees);
     return {std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch)};
+}
+
+bool measureTriangle(TriangleLight& light) {
+    // In double: slivers of far away geometry keep a direction.
+    const dvec3 a(light.corner[0]), b(light.corner[1]), c(light.corner[2]);
+    const dvec3 cross = glm::cross(c - a, b - a);
+    const double length = glm::length(cross);
+    light.areaQu2 = static_cast<float>(length * 0.5);
+    if (!(light.areaQu2 > 0.0f)) return false;
+    light.normal = vec3(cross / length);
+    return true;
 }
 
 LightSet extractLights(const World& world, const MaterialLibrary& materials) {

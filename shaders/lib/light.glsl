@@ -3,6 +3,7 @@
 #ifndef Q3RT_LIB_LIGHT_GLSL
 #define Q3RT_LIB_LIGHT_GLSL
 #include "lib/sampling.glsl"
+#include "lib/spherical_triangle.glsl"
 #include "shared/constants.h"
 
 struct LightSample {
@@ -10,23 +11,24 @@ struct LightSample {
     vec3 direction;  // from the shaded point to the sampled point; the shadow ray covers t in [0, 1)
 };
 
-// Lambertian triangle, a point uniform over its area: E = L A cos(receiver) cos(emitter) / d^2. `normal` and
-// `lightNormal` are unit; `position` is the shaded point.
+// Lambertian triangle, a point uniform by solid angle: E = L x solid angle x cos(receiver), however near the light is.
+// `normal` and `lightNormal` are unit; `position` is the shaded point.
 LightSample sampleTriangleLight(vec3 position, vec3 normal, vec3 corner, vec3 edge1, vec3 edge2, vec3 lightNormal,
                                 float areaQu2, vec3 radiance, bool twoSided, float u, float v)
 {
-    vec2 weights = sampleTriangle(u, v);
     LightSample result;
-    // In this order the rounding is of the way's size, however far from the origin both are.
-    result.direction = (corner - position) + (edge1 * weights.x + edge2 * weights.y);
+    result.direction = corner - position;
     result.irradiance = vec3(0.0f);
-    float distance2 = dot(result.direction, result.direction);
-    float cosReceiver = dot(normal, result.direction);
-    float cosEmitter = -dot(lightNormal, result.direction);
-    if (twoSided)
-        cosEmitter = abs(cosEmitter);
-    if (cosReceiver > 0.0f && cosEmitter > 0.0f)
-        result.irradiance = radiance * (areaQu2 * cosReceiver * cosEmitter / (distance2 * distance2));
+    float height = -dot(lightNormal, result.direction);
+    float above = dot(normal, result.direction);
+    float highest = above + max(max(dot(normal, edge1), dot(normal, edge2)), 0.0f);
+    if (highest <= 0.0f || (height <= 0.0f && !twoSided))
+        return result;
+    SphericalTriangle seen = makeSphericalTriangle(result.direction, edge1, edge2, abs(height), areaQu2);
+    result.direction = sampleSphericalTriangle(seen, u, v);
+    float cosReceiver = dot(normal, result.direction) * inversesqrt(dot(result.direction, result.direction));
+    if (cosReceiver > 0.0f)
+        result.irradiance = radiance * (2.0f * seen.halfAngle * cosReceiver);
     return result;
 }
 
@@ -121,7 +123,7 @@ LightChoice considerWeighted(LightChoice choice, LightSample candidate, float we
     return choice;
 }
 
-// A candidate that stands for several lights brings their number in its irradiance.
+// A candidate that was drawn at random brings its weight in its irradiance.
 LightChoice considerLight(LightChoice choice, LightSample candidate, float random)
 {
     return considerWeighted(choice, candidate, lightWeight(candidate.irradiance), random);

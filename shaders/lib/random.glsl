@@ -27,11 +27,17 @@ uvec4 hashPcg4d(uvec4 v)
 // 24 bits to [0, 1): every value is a binary32 number and 1 is never reached.
 float unitFloat(uint bits) { return float(bits >> 8u) * 5.9604644775390625e-8f; }
 
-// Four independent numbers of one dimension. Dimensions are given out by the stages (kDimension*).
-vec4 randomNumbers(uvec4 key, uint dimension)
+// Four independent numbers of one dimension, 32 bits each. Dimensions are given out by the stages (kDimension*).
+uvec4 randomBits(uvec4 key, uint dimension)
 {
-    uvec4 h = hashPcg4d(uvec4(key.x, key.y, key.z, key.w ^ (dimension * 2654435769u)));
-    return vec4(unitFloat(h.x), unitFloat(h.y), unitFloat(h.z), unitFloat(h.w));
+    return hashPcg4d(uvec4(key.x, key.y, key.z, key.w ^ (dimension * 2654435769u)));
 }
+
+vec4 unitFloats(uvec4 bits)
+{
+    return vec4(unitFloat(bits.x), unitFloat(bits.y), unitFloat(bits.z), unitFloat(bits.w));
+}
+
+vec4 randomNumbers(uvec4 key, uint dimension) { return unitFloats(randomBits(key, dimension)); }
 
 #endif

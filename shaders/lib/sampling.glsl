@@ -3,15 +3,6 @@
 #define Q3RT_LIB_SAMPLING_GLSL
 #include "shared/constants.h"
 
-// Uniform over a triangle's area: weights of corner 1 and 2. Folding the unit square keeps the map continuous and of
-// constant density (Heitz 2019, "A Low-Distortion Map Between Triangle and Square", the simple form).
-vec2 sampleTriangle(float u, float v)
-{
-    if (u + v > 1.0f)
-        return vec2(1.0f - u, 1.0f - v);
-    return vec2(u, v);
-}
-
 // Uniform over the unit disc (Shirley and Chiu 1997, concentric map).
 vec2 sampleDisc(float u, float v)
 {

@@ -21,39 +21,41 @@ vec3 sumAllLights(ShadingPoint point, RtLightRow row, uvec4 key)
 {
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < row.count; ++i) {
-        uint light = NumberTable(rtFrame.lightIndices).at[row.first + i];
-        LightSample lit = sampleTriangle(light, point, randomNumbers(key, kDimensionLight + light).xy);
+        uint light = LightEntryTable(rtFrame.lightEntries).at[row.first + i].light;
+        LightSample lit = sampleRowLight(light, point, randomNumbers(key, kDimensionLight + light).xy);
         sum += shadowed(point, lit.irradiance, lit.direction);
     }
+    uint dimension = kDimensionLight + rtFrame.triangleLightCount + rtFrame.pointLightCount;
     for (uint i = 0u; i < rtFrame.lightCount; ++i) {
-        vec2 random = randomNumbers(key, kDimensionLight + rtFrame.triangleLightCount + i).xy;
-        LightSample lit = sampleOther(i, point, random, row.seesSky != 0u);
+        RtLight light = LightTable(rtFrame.lights).at[i];
+        LightSample lit = sampleOther(light, point, randomNumbers(key, dimension + i).xy, row.seesSky != 0u);
         sum += shadowed(point, lit.irradiance, lit.direction);
     }
     return sum;
 }
 
-// Candidates are all lights of a short row; of a long one, a random light out of each of `candidates` equal shares.
+// Candidates are some lights of the row, drawn by its own probabilities from one random number in equal steps, and all
+// lights that are in no row. Each candidate by itself is distributed as the row says.
 LightChoice chooseLight(ShadingPoint point, RtLightRow row, float skySeen, uvec4 key, uint choiceNumber)
 {
     LightChoice choice = emptyChoice();
-    uint candidates = min(row.count, rtFrame.candidatesPerChoice);
-    uint dimension = kDimensionLight + choiceNumber * (rtFrame.triangleLightCount + rtFrame.lightCount);
-    float share = candidates > 0u ? float(row.count) / float(candidates) : 0.0;
-    for (uint i = 0u; i < candidates; ++i) {
+    uint count = row.facing > 0u ? rtFrame.candidatesPerChoice : 0u;
+    uint dimension = kDimensionLight + choiceNumber * (rtFrame.candidatesPerChoice + rtFrame.lightCount);
+    uint start = randomBits(key, dimension).w;
+    uint step = 0xffffffffu / rtFrame.candidatesPerChoice;
+    for (uint i = 0u; i < count; ++i) {
         vec4 random = randomNumbers(key, dimension + i);
-        uint first = uint(float(i) * share);
-        uint end = i + 1u == candidates ? row.count : uint(float(i + 1u) * share);
-        uint inShare = min(uint(random.w * float(end - first)), end - first - 1u);
-        uint light = NumberTable(rtFrame.lightIndices).at[row.first + first + inShare];
-        LightSample lit = sampleTriangle(light, point, random.xy);
-        lit.irradiance *= float(end - first);
+        DrawnLight drawn = drawLight(row, start + i * step);
+        LightSample lit = sampleRowLight(drawn.light, point, random.xy);
+        lit.irradiance *= drawn.weight / float(count);
         choice = considerLight(choice, lit, random.z);
     }
+    dimension += rtFrame.candidatesPerChoice;
     for (uint i = 0u; i < rtFrame.lightCount; ++i) {
-        vec4 random = randomNumbers(key, dimension + rtFrame.triangleLightCount + i);
-        LightSample lit = sampleOther(i, point, random.xy, row.seesSky != 0u);
-        bool fromSky = LightTable(rtFrame.lights).at[i].kind != kLightSphere;
+        vec4 random = randomNumbers(key, dimension + i);
+        RtLight light = LightTable(rtFrame.lights).at[i];
+        LightSample lit = sampleOther(light, point, random.xy, row.seesSky != 0u);
+        bool fromSky = light.kind != kLightSphere;
         choice = considerWeighted(choice, lit, lightWeight(lit.irradiance) * (fromSky ? skySeen : 1.0), random.z);
     }
     return choice;
@@ -70,7 +72,7 @@ void directPixel(uvec2 pixelPosition)
         point.error = pixel.error;
         point.origin = offsetOrigin(pixel.position, pixel.error, pixel.geometricNormal);
         point.normal = pixel.normal;
-        RtLightRow row = LightRowTable(rtFrame.lightRows).at[lightRowOf(point.origin)];
+        RtLightRow row = lightRowOf(point.origin, point.normal);
         uvec4 key = ownRandomKey(pixel);
         GridSample grid = sampleGrid(point.origin, point.normal);
         // Where the grid saw no sky a thin chance stays: its cells are coarse.

@@ -2,6 +2,7 @@
 #ifndef Q3RT_RT_LIGHTS_GLSL
 #define Q3RT_RT_LIGHTS_GLSL
 #include "lib/light.glsl"
+#include "lib/light_row.glsl"
 #include "lib/offset.glsl"
 #include "lib/random.glsl"
 #include "rt/scene.glsl"
@@ -10,10 +11,11 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Tri
     RtTriangleLight at[];
 };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightRowTable { RtLightRow at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightEntryTable { RtLightEntry at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightTable { RtLight at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer NodeTable { RtNode at[]; };
 
-// Random dimensions of the direct stage: a light's sample takes kDimensionLight + its number in the row.
+// Random dimensions of the direct stage: a light's sample takes kDimensionLight + its number.
 const uint kDimensionLens = 0u;
 const uint kDimensionChoice = 1u;
 const uint kDimensionLayer = 2u;
@@ -28,19 +30,53 @@ uvec4 ownRandomKey(RtPixel pixel)
     return uvec4(pixel.keyPixel & 0xffffu, pixel.keyPixel >> 16u, pixel.keyFrame, rtFrame.seed);
 }
 
-// Row of the light table for a point off every surface. A point on a plane belongs to its back, as in the map; a point
-// outside all clusters has the last row: all lights.
-uint lightRowOf(vec3 point)
+// Cluster of a point off every surface, -1 outside all. A point on a plane belongs to its back, as in the map.
+int clusterOf(vec3 point)
 {
-    if (rtFrame.cullLights == 0u || rtFrame.clusterCount == 0u)
-        return rtFrame.clusterCount;
+    if (rtFrame.clusterCount == 0u)
+        return -1;
     int node = 0;
     while (node >= 0) {
         RtNode at = NodeTable(rtFrame.nodes).at[node];
         node = dot(at.plane.normal, point) - at.plane.distance > 0.0 ? at.front : at.back;
     }
     int cluster = -2 - node;
-    return cluster >= 0 && cluster < int(rtFrame.clusterCount) ? uint(cluster) : rtFrame.clusterCount;
+    return cluster < int(rtFrame.clusterCount) ? cluster : -1;
+}
+
+// Row of the light table for a point off every surface with a unit normal; a point outside all clusters has all lights.
+RtLightRow lightRowOf(vec3 point, vec3 normal)
+{
+    int cluster = rtFrame.cullLights == 0u ? -1 : clusterOf(point);
+    if (cluster < 0)
+        return LightRowTable(rtFrame.lightRows).at[rtFrame.clusterCount * kNormalClassCount];
+    uint first = uint(cluster) * kNormalClassCount;
+    RtLightRow row = LightRowTable(rtFrame.lightRows).at[first];
+    if (rtFrame.cullLights == 1u)
+        return row;
+    row.count = row.facing;
+    uint which = normalClass(normal);
+    if (which == 0u)
+        return row;
+    RtLightRow narrower = LightRowTable(rtFrame.lightRows).at[first + which];
+    if (alongClass(which, point) < narrower.plane)
+        return row;
+    return narrower;
+}
+
+// One of a row's lights at random, and 1 / its probability. `bits`: 32 of them, the higher ones draw the column.
+struct DrawnLight {
+    uint light;
+    float weight;
+};
+DrawnLight drawLight(RtLightRow row, uint bits)
+{
+    uint column, rest;
+    umulExtended(bits, row.facing, column, rest);
+    RtLightEntry entry = LightEntryTable(rtFrame.lightEntries).at[row.first + column];
+    if (unitFloat(rest) >= entry.chance)
+        entry = LightEntryTable(rtFrame.lightEntries).at[row.first + entry.other];
+    return DrawnLight(entry.light, entry.weight);
 }
 
 struct ShadingPoint {
@@ -66,9 +102,8 @@ LightSample sampleTriangle(uint light, ShadingPoint point, vec2 random)
     return result;
 }
 
-LightSample sampleOther(uint light, ShadingPoint point, vec2 random, bool seesSky)
+LightSample sampleOther(RtLight l, ShadingPoint point, vec2 random, bool seesSky)
 {
-    RtLight l = LightTable(rtFrame.lights).at[light];
     LightSample result;
     if (l.kind == kLightSphere) {
         result = sampleSphereLight(point.origin, point.normal, l.position,
@@ -86,6 +121,14 @@ LightSample sampleOther(uint light, ShadingPoint point, vec2 random, bool seesSk
     if (!seesSky)
         result.irradiance = vec3(0.0);
     return result;
+}
+
+// A light by its number in the rows.
+LightSample sampleRowLight(uint light, ShadingPoint point, vec2 random)
+{
+    if (light < rtFrame.triangleLightCount)
+        return sampleTriangle(light, point, random);
+    return sampleOther(LightTable(rtFrame.pointLights).at[light - rtFrame.triangleLightCount], point, random, false);
 }
 
 #endif

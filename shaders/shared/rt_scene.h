@@ -2,6 +2,7 @@
 // from RtFrame, so that a frame needs one push constant, the texture array and the acceleration structure.
 #ifndef Q3RT_SHARED_RT_SCENE_H
 #define Q3RT_SHARED_RT_SCENE_H
+#include "rt_lights.h"
 #include "types.h"
 #ifdef __cplusplus
 #define SHARED_ADDRESS uint64_t
@@ -72,33 +73,6 @@ struct RtEntity {
     vec3 lightDirection; // model space
 };
 
-struct RtTriangleLight {
-    vec3 corner;
-    float areaQu2;
-    vec3 edge1;
-    uint twoSided;
-    vec3 edge2;
-    float error; // bound of a sampled point's distance from the triangle's plane, qu
-    vec3 normal; // unit, lit side
-    uint reserved;
-    vec3 radiance; // luxel units / pi
-    uint reserved1;
-};
-
-SHARED_CONST kLightSphere = 0u;
-SHARED_CONST kLightSun = 1u;
-SHARED_CONST kLightSky = 2u;
-
-// Lights that are not triangles.
-struct RtLight {
-    vec3 position; // sphere: centre; sun: unit direction to it
-    uint kind;
-    vec3 power; // sphere: intensity, luxel units qu^2; sun, sky: irradiance, luxel units
-    float size; // sphere: radius, qu; sun: 1 - cos(half angle)
-    vec3 axis;  // spot: unit direction of its cone
-    float cosOuter; // -1: no cone
-};
-
 struct RtPlane {
     vec3 normal;
     float distance;
@@ -108,13 +82,6 @@ struct RtNode {
     RtPlane plane;
     int front; // >= 0 a node; c < 0: cluster -2 - c (so -1 is "outside" as in the map)
     int back;
-};
-
-// Row of the light table: a cluster, or the last one for every point outside all clusters.
-struct RtLightRow {
-    uint first; // in lightIndices
-    uint count;
-    uint seesSky; // 0: no sky is potentially visible; suns and sky light cannot reach it
 };
 
 struct RtGridCell {
@@ -181,9 +148,10 @@ struct RtFrame {
     SHARED_ADDRESS entities;
     SHARED_ADDRESS stages;
     SHARED_ADDRESS triangleLights;
+    SHARED_ADDRESS pointLights; // RtLight[]: those that stay; numbered on after the triangle lights
     SHARED_ADDRESS lightRows;
-    SHARED_ADDRESS lightIndices;
-    SHARED_ADDRESS lights;
+    SHARED_ADDRESS lightEntries;
+    SHARED_ADDRESS lights; // RtLight[]: suns and the frame's dynamic lights, in no row
     SHARED_ADDRESS nodes;
     SHARED_ADDRESS grid;
     SHARED_ADDRESS skies;
@@ -215,7 +183,8 @@ struct RtFrame {
     uint sampleNumber; // of this view: 0 starts a new mean
     uint frame; // of random numbers
     uint triangleLightCount;
-    uint lightCount;
+    uint pointLightCount;
+    uint lightCount; // in no row
     uint clusterCount;
     uint lightsPerPixel; // rt_numRandomDL; 0: all
     uint candidatesPerChoice;

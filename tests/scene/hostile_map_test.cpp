@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "scene/entity_geometry.hpp"
-#include "scene/lights.hpp"
+#include "scene/light_rows.hpp"
 #include "scene_fixture.hpp"
 #include "support/game_data.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 /// Everything that a renderer does with a map at load and in a view.
 void useWorld(const World& world, SceneLibraries& libraries, MemoryFiles& files) {
     const LightSet lights = extractLights(world, libraries.materials);
-    buildLightTable(world, lights, true);
+    buildLightRows(world, libraries.materials, describeRowLights(lights.triangles, lights.points));
     const vec3 centre = (world.bounds.mins + world.bounds.maxs) * 0.5f;
     world.grid.sample(centre);
     world.inPvs(centre, vec3(0));

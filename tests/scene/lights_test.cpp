@@ -1,17 +1,12 @@
-// Lights by rule, and the table of lights by cluster.
+// Lights by rule.
 
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
-#include <random>
-#include <set>
 
 #include <gtest/gtest.h>
 
 #include "scene/lights_build.hpp"
 #include "scene_fixture.hpp"
-#include "support/game_data.hpp"
 
 namespace q3rt::test {
 namespace {
@@ -133,74 +128,6 @@ TEST_F(LightsTest, LightEntities) {
     EXPECT_EQ(lights.points[1].direction, vec3(0, 0, -1));
     ASSERT_EQ(lights.suns.size(), 1u);
     EXPECT_EQ(lights.suns[0].direction, vec3(0, 0, 1));
-}
-
-/// Clusters of random points of a light, each moved off its plane both ways: what a wrong table would miss.
-std::set<int> sampleClusters(const World& world, const TriangleLight& light, std::mt19937& random) {
-    std::uniform_real_distribution<float> unit(0, 1);
-    std::set<int> clusters;
-    for (int i = 0; i < 64; ++i) {
-        const float root = std::sqrt(unit(random)), v = unit(random);
-        const vec3 point =
-            light.corner[0] * (1 - root) + light.corner[1] * (root * (1 - v)) + light.corner[2] * (root * v);
-        for (const float off : {-0.05f, 0.0f, 0.05f}) {
-            const int cluster = world.clusterOf(point + light.normal * off);
-            if (cluster >= 0) clusters.insert(cluster);
-        }
-    }
-    return clusters;
-}
-
-/// Checks every pair of light and row of a map; returns the share of all pairs that the table lists.
-double checkTable(FileSource& files, const std::string& map) {
-    SceneLibraries libraries(files);
-    const auto world = loadWorld(files, "maps/" + map + ".bsp", libraries.materials, WorldSettings{});
-    const LightSet lights = extractLights(*world, libraries.materials);
-    const LightTable table = buildLightTable(*world, lights, true);
-    const auto clusters = static_cast<size_t>(world->bsp.clusterCount);
-    EXPECT_EQ(table.offset.size(), clusters + 2);
-    EXPECT_EQ(table.offset[clusters + 1] - table.offset[clusters], lights.triangles.size()) << "outside sees all";
-    constexpr unsigned kSeed = 1;
-    std::mt19937 random(kSeed);
-    size_t required = 0, missing = 0;
-    for (size_t i = 0; i < lights.triangles.size(); ++i) {
-        const std::set<int> touched = sampleClusters(*world, lights.triangles[i], random);
-        for (size_t row = 0; row < clusters; ++row) {
-            const bool seen = std::any_of(touched.begin(), touched.end(), [&](int cluster) {
-                return world->bsp.clusterVisible(static_cast<int>(row), cluster);
-            });
-            required += seen;
-            missing += seen && !std::binary_search(table.lights.begin() + table.offset[row],
-                                                   table.lights.begin() + table.offset[row + 1], i);
-        }
-    }
-    EXPECT_EQ(missing, 0u) << map << ", seed " << kSeed;
-    EXPECT_GT(required, 1000u);
-    const size_t pairs = lights.triangles.size() * clusters, listed = table.offset[clusters];
-    std::printf("%s: %zu lights, %zu clusters; %zu pairs of light and row must be listed, %zu of %zu are\n",
-                map.c_str(), lights.triangles.size(), clusters, required, listed, pairs);
-    return static_cast<double>(listed) / static_cast<double>(pairs);
-}
-
-TEST(LightTable, NeverMissesALightThatARowCanSee) {
-    Q3RT_OPEN_GAME_DATA_OR_SKIP(files);
-    TinyImageFiles tiny(*files);
-    checkTable(tiny, "fan");
-    EXPECT_LT(checkTable(tiny, "oa_spirit3"), 0.5) << "on a map of many rooms the table culls";
-}
-
-TEST(LightTable, WithoutCullingEveryRowHoldsAll) {
-    World world;
-    world.bsp.leafs.resize(1);
-    world.bsp.clusterCount = 3;
-    world.bsp.clusterRowBytes = 1;
-    world.bsp.visibility = {1, 2, 4}; // each cluster sees itself only
-    LightSet lights;
-    lights.triangles.resize(5);
-    EXPECT_EQ(buildLightTable(world, lights, false).lights.size(), 5u * 4);
-    world.bsp.leafs[0].cluster = 1;
-    const LightTable culled = buildLightTable(world, lights, true);
-    EXPECT_EQ(culled.offset, (std::vector<uint32_t>{0, 0, 5, 5, 10}));
 }
 
 } // namespace

@@ -29,7 +29,8 @@ Case makeCase(std::mt19937& generator, float distance) {
     Case c{};
     for (vec3& corner : c.corner)
         corner = base + vec3(symmetric(generator), symmetric(generator), symmetric(generator)) * size;
-    c.barycentric = shader::sampleTriangle(unit(generator), unit(generator) * 0.999f);
+    c.barycentric = {unit(generator), unit(generator) * 0.999f};
+    if (c.barycentric.x + c.barycentric.y > 1.0f) c.barycentric = 1.0f - c.barycentric;
     return c;
 }
 

@@ -51,19 +51,6 @@ TEST(Constants, AreTheStandardLibrarys) {
     EXPECT_NEAR(kDynamicLightIntensity, 63.75 * 4000 / (255.0 * 256), 1e-5);
 }
 
-TEST(Sampling, TriangleIsUniform) {
-    const vec2 mean = meanOverSquare([](float u, float v) { return shader::sampleTriangle(u, v); });
-    EXPECT_NEAR(mean.x, 1.0f / 3, 1e-4);
-    EXPECT_NEAR(mean.y, 1.0f / 3, 1e-4);
-    const vec3 moments = meanOverSquare([](float u, float v) {
-        const vec2 w = shader::sampleTriangle(u, v);
-        return vec3(w.x * w.x, w.x * w.y, w.y * w.y);
-    });
-    EXPECT_NEAR(moments.x, 1.0f / 6, 1e-4);
-    EXPECT_NEAR(moments.y, 1.0f / 12, 1e-4);
-    EXPECT_NEAR(moments.z, 1.0f / 6, 1e-4);
-}
-
 TEST(Sampling, DiscAndCosineHemisphere) {
     const vec3 disc = meanOverSquare([](float u, float v) {
         const vec2 p = shader::sampleDisc(u, v);

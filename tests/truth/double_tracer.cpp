@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "baseq3-test/form_factor.hpp"
+#include "scene/deform.hpp"
 
 namespace q3rt::test {
 
@@ -69,13 +70,6 @@ double sampleAlpha(const Texture& texture, const dvec2& st) {
                     glm::mix(alphaOf(cell.x, cell.y + 1), alphaOf(cell.x + 1, cell.y + 1), f.x), f.y);
 }
 
-/// How far a deform moves a vertex at most, qu. A sprite turns about its middle: no farther than its longest edge.
-double reachOf(const Deform& deform, double longestEdge) {
-    if (deform.kind == DeformKind::AutoSprite || deform.kind == DeformKind::AutoSprite2) return longestEdge;
-    const double wave = std::abs(double(deform.wave.base)) + std::abs(double(deform.wave.amplitude));
-    return wave * std::max(1.0, double(glm::length(deform.move))) + std::abs(double(deform.bulgeHeight));
-}
-
 /// Does the line meet the box at t in [0, tMax]?
 bool meetsBox(const Bounds& box, const dvec3& origin, const dvec3& direction, double tMax) {
     const dvec3 one = (dvec3(box.mins) - origin) / direction, other = (dvec3(box.maxs) - origin) / direction;
@@ -128,9 +122,10 @@ DoubleTracer::DoubleTracer(const World& world, const MaterialLibrary& materials,
         const auto surfaceClass = classifySurface(materials.drawn(surface.material));
         if (!surface.drawn || !surfaceClass) continue;
         const Material& material = materials.drawn(surface.material);
-        if (!material.deforms.empty()) m_deformed.push_back(boundDeformed(surface, material));
+        const bool turns = deformsWithView(material);
+        if (turns) m_sprites.push_back(boundSprite(surface));
         for (uint32_t i = 0; i + 2 < surface.indexCount; i += 3)
-            m_triangles.push_back({number, surface.firstIndex + i, *surfaceClass});
+            m_triangles.push_back({number, surface.firstIndex + i, *surfaceClass, turns});
     }
     RTCGeometry geometry = rtcNewGeometry(m_embree->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -154,19 +149,17 @@ DoubleTracer::DoubleTracer(const World& world, const MaterialLibrary& materials,
 
 DoubleTracer::~DoubleTracer() = default;
 
-Bounds DoubleTracer::boundDeformed(const WorldSurface& surface, const Material& material) const {
-    double longestEdge = 0;
+/// A sprite turns about its middle: no farther than its longest edge.
+Bounds DoubleTracer::boundSprite(const WorldSurface& surface) const {
+    float longestEdge = 0;
     for (uint32_t i = 0; i + 2 < surface.indexCount; i += 3)
         for (uint32_t k = 0; k < 3; ++k) {
             const uint32_t from = m_world.indices[surface.firstIndex + i + k];
             const uint32_t to = m_world.indices[surface.firstIndex + i + (k + 1) % 3];
-            longestEdge = std::max(
-                longestEdge, double(glm::length(m_world.vertices[from].position - m_world.vertices[to].position)));
+            longestEdge =
+                std::max(longestEdge, glm::distance(m_world.vertices[from].position, m_world.vertices[to].position));
         }
-    double reach = 0;
-    for (const Deform& deform : material.deforms)
-        reach += reachOf(deform, longestEdge);
-    return {surface.bounds.mins - vec3(reach), surface.bounds.maxs + vec3(reach)};
+    return {surface.bounds.mins - vec3(longestEdge), surface.bounds.maxs + vec3(longestEdge)};
 }
 
 void DoubleTracer::visitCandidates(const dvec3& origin, const dvec3& direction, double tMax,
@@ -235,6 +228,7 @@ std::optional<DoubleHit> DoubleTracer::look(const dvec3& origin, const dvec3& di
     visitCandidates(origin, direction, m_farQu, [&](uint32_t triangle) {
         DoubleHit hit;
         if (!intersect(triangle, origin, direction, hit) || hit.t <= 0) return false;
+        if (m_triangles[triangle].turns) return false;
         const SurfaceClass surfaceClass = m_triangles[triangle].surfaceClass;
         const dvec3 facing =
             glm::cross(corner(triangle, 2) - corner(triangle, 0), corner(triangle, 1) - corner(triangle, 0));
@@ -250,7 +244,7 @@ std::optional<DoubleHit> DoubleTracer::look(const dvec3& origin, const dvec3& di
         return false;
     });
     if (!nearest || nearestOther < nearest->t) return std::nullopt;
-    for (const Bounds& box : m_deformed)
+    for (const Bounds& box : m_sprites)
         if (meetsBox(box, origin, direction, nearest->t)) return std::nullopt;
     DoubleHit& hit = *nearest;
     hit.position = origin + direction * hit.t;
@@ -272,7 +266,8 @@ bool DoubleTracer::isOpen(const dvec3& from, const dvec3& way, double tMax) cons
     bool open = true;
     visitCandidates(from, way, tMax, [&](uint32_t triangle) {
         const SurfaceClass surfaceClass = m_triangles[triangle].surfaceClass;
-        if (surfaceClass == SurfaceClass::Layer || surfaceClass == SurfaceClass::Sky) return false;
+        if (surfaceClass == SurfaceClass::Layer || surfaceClass == SurfaceClass::Sky || m_triangles[triangle].turns)
+            return false;
         DoubleHit hit;
         if (!intersect(triangle, from, way, hit) || hit.t <= own || hit.t >= tMax - own) return false;
         if (surfaceClass == SurfaceClass::Tested && !isCovered(hit)) return false;
@@ -404,6 +399,19 @@ dvec3 DoubleTracer::pointLight(const DoubleHit& hit) const {
 
 dvec3 DoubleTracer::irradiance(const DoubleHit& hit, std::mt19937& random) const {
     return surfaceLight(hit, random) + sunLight(hit, random) + skyLight(hit, random) + pointLight(hit);
+}
+
+void deformWorld(World& world, const MaterialLibrary& materials) {
+    std::vector<Vertex> vertices;
+    std::vector<uint32_t> indices;
+    for (WorldSurface& surface : world.surfaces) {
+        const Material& material = materials.drawn(surface.material);
+        if (!surface.drawn || material.deforms.empty() || deformsWithView(material) || surface.bspModel != 0) continue;
+        const auto first = world.vertices.begin() + surface.firstVertex;
+        vertices.assign(first, first + surface.vertexCount);
+        deformVertices(material, {}, vertices, indices);
+        std::copy(vertices.begin(), vertices.end(), first);
+    }
 }
 
 } // namespace q3rt::test

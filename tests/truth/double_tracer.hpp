@@ -25,6 +25,9 @@ struct DoubleHit {
     dvec3 geometricNormal{0}; ///< unit, on the same side
 };
 
+/// Moves the vertices of deformed surfaces to where they are at time 0. Sprites stay.
+void deformWorld(World& world, const MaterialLibrary& materials);
+
 class DoubleTracer {
   public:
     DoubleTracer(const World& world, const MaterialLibrary& materials, const LightSet& lights);
@@ -32,7 +35,7 @@ class DoubleTracer {
     DoubleTracer(const DoubleTracer&) = delete;
     DoubleTracer& operator=(const DoubleTracer&) = delete;
 
-    /// What the eye meets: the first solid, unless something see-through or deformed may lie before it (then nullopt).
+    /// What the eye meets: the first solid, unless something see-through or a sprite may lie before it (then nullopt).
     std::optional<DoubleHit> look(const dvec3& origin, const dvec3& direction) const;
 
     /// Direct light in luxel units, all lights. The generator only places samples inside their strata.
@@ -44,11 +47,12 @@ class DoubleTracer {
     struct Triangle {
         uint32_t surface, firstIndex;
         SurfaceClass surfaceClass;
+        bool turns; ///< a sprite: where it is depends on the eye, and it casts no shadow
     };
     /// Calls `visit` for triangles that the line may meet at t in [0, tMax], in any order, until it returns true.
     void visitCandidates(const dvec3& origin, const dvec3& direction, double tMax,
                          const std::function<bool(uint32_t triangle)>& visit) const;
-    Bounds boundDeformed(const WorldSurface& surface, const Material& material) const;
+    Bounds boundSprite(const WorldSurface& surface) const;
     dvec3 corner(uint32_t triangle, uint32_t k) const;
     bool intersect(uint32_t triangle, const dvec3& origin, const dvec3& direction, DoubleHit& hit) const;
     bool isCovered(const DoubleHit& hit) const;
@@ -66,7 +70,7 @@ class DoubleTracer {
     const MaterialLibrary& m_materials;
     const LightSet& m_lights;
     std::vector<Triangle> m_triangles;
-    std::vector<Bounds> m_deformed; ///< where deformed surfaces may be at any time
+    std::vector<Bounds> m_sprites; ///< where they may be from any view
     std::unique_ptr<Embree> m_embree;
     double m_farQu = 0; ///< longer than any line inside the map
 };

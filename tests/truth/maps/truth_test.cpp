@@ -40,8 +40,10 @@ struct LoadedMap {
     LoadedMap(FileSource& files, const std::string& name)
         : textures(files, {})
         , materials(files, textures, {})
-        , world(q3rt::loadWorld(files, "maps/" + name + ".bsp", materials, {}))
-        , lights(extractLights(*world, materials)) {}
+        , world(q3rt::loadWorld(files, "maps/" + name + ".bsp", materials, {})) {
+        deformWorld(*world, materials);
+        lights = extractLights(*world, materials);
+    }
 };
 
 /// Is the surface's look its albedo times the light, and nothing more? The first stage is lit, later ones only multiply
@@ -200,6 +202,7 @@ INSTANTIATE_TEST_SUITE_P(
                     TruthCase{"fan", {.eye = {0, -736, 122}, .pitch = 5, .yaw = 60}, 8},
                     TruthCase{"oa_dm1", {.eye = {104, 1392, 50}, .pitch = 5, .yaw = 270}, 8},
                     TruthCase{"oa_dm1", {.eye = {108.3f, 1380.7f, 49.3f}, .pitch = -6, .yaw = 285}, 8},
+                    TruthCase{"oa_dm1", {.eye = {-205, 1394, -98}, .pitch = 5, .yaw = 90}, 8},
                     TruthCase{"oa_shouse", {.eye = {-416, 448, 682}, .pitch = 5, .yaw = 0}, 8},
                     TruthCase{"oa_shouse", {.eye = {0, 512, 362}, .pitch = 5, .yaw = 270}, 8},
                     TruthCase{"oacmpctf3", {.eye = {-2908.3f, -349.1f, 60.7f}, .pitch = 2.3f, .yaw = 3.1f}, 48},

@@ -31,7 +31,12 @@ const DirectInputs* inputsOfRun;
 // In place of lib/random.glsl and of the tables and the tracer behind rt/scene.glsl.
 #define Q3RT_LIB_RANDOM_GLSL
 #define Q3RT_RT_SCENE_GLSL
-Numbers4 randomNumbers(uvec4, uint dimension) { return Numbers4(inputsOfRun->random(dimension)); }
+float unitFloat(uint bits) { return float(bits >> 8) * 0x1p-24f; }
+uvec4 randomBits(uvec4, uint dimension) { return inputsOfRun->random(dimension); }
+Numbers4 randomNumbers(uvec4 key, uint dimension) {
+    const uvec4 bits = randomBits(key, dimension);
+    return Numbers4(glm::vec4(unitFloat(bits.x), unitFloat(bits.y), unitFloat(bits.z), unitFloat(bits.w)));
+}
 bool traceVisible(vec3 origin, vec3 direction, float, uint) { return inputsOfRun->visible(origin, direction); }
 uint pixelIndex(uvec2) { return 0; }
 
@@ -58,6 +63,7 @@ struct ColorTable {
 #define ColorTable(address) TABLE(ColorTable, address)
 #define TriangleLightTable(address) TABLE(TriangleLightTable, address)
 #define LightRowTable(address) TABLE(LightRowTable, address)
+#define LightEntryTable(address) TABLE(LightEntryTable, address)
 #define LightTable(address) TABLE(LightTable, address)
 #define NodeTable(address) TABLE(NodeTable, address)
 #define GridTable(address) TABLE(GridTable, address)
@@ -69,6 +75,17 @@ struct ColorTable {
 
 const uint kFirstLightDimension = kDimensionLight;
 const float kLeastSkyShare = kLeastSkyChance;
+
+RtLightRow rowOfPixel(DirectInputs& inputs, const RtPixel& pixel) {
+    inputsOfRun = &inputs;
+    return lightRowOf(offsetOrigin(pixel.position, pixel.error, pixel.geometricNormal), pixel.normal);
+}
+
+Drawn drawFromRow(DirectInputs& inputs, const RtLightRow& row, uint bits) {
+    inputsOfRun = &inputs;
+    const DrawnLight drawn = drawLight(row, bits);
+    return {drawn.light, drawn.weight};
+}
 
 vec3 runDirectStage(DirectInputs& inputs, const RtPixel& pixel) {
     RtPixel copy = pixel;

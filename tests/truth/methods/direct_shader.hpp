@@ -11,7 +11,7 @@ namespace q3rt::test {
 
 struct DirectInputs {
     RtFrame frame{};                                                        ///< addresses are C++ pointers
-    std::function<vec4(uint dimension)> random;                             ///< four numbers of [0, 1)
+    std::function<glm::uvec4(uint dimension)> random;                       ///< 32 bits each
     std::function<bool(const vec3& origin, const vec3& direction)> visible; ///< is (0, 1) of the way free?
 };
 
@@ -19,6 +19,16 @@ struct DirectInputs {
 extern const uint kFirstLightDimension;
 /// Least weight of the sky's share in a choice.
 extern const float kLeastSkyShare;
+
+/// Row of the light table whose lights the pixel tries.
+RtLightRow rowOfPixel(DirectInputs& inputs, const RtPixel& pixel);
+
+/// What one number draws from a row: a light, and 1 / its probability.
+struct Drawn {
+    uint light;
+    float weight;
+};
+Drawn drawFromRow(DirectInputs& inputs, const RtLightRow& row, uint bits);
 
 /// L of one pixel: irradiance / 63.75 luxel units, with the ambient term. One run at a time.
 vec3 runDirectStage(DirectInputs& inputs, const RtPixel& pixel);

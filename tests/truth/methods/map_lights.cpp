@@ -21,7 +21,7 @@ MapLights::MapLights(FileSource& files, const std::string& map)
     , m_materials(files, m_textures, {})
     , m_world(q3rt::loadWorld(files, "maps/" + map + ".bsp", m_materials, {})) {
     const LightSet lights = extractLights(*m_world, m_materials);
-    m_tables = buildLightTables(*m_world, lights, findSkyClusters(*m_world, m_materials));
+    m_tables = buildLightTables(*m_world, m_materials, lights, findSkyClusters(*m_world, m_materials));
     const BspModel& model = m_world->bsp.models[0];
     std::vector<vec3> positions;
     for (int s = model.firstSurface; s < model.firstSurface + model.surfaceCount; ++s) {
@@ -75,11 +75,13 @@ RtFrame MapLights::describeFrame() const {
     const auto address = [](const auto& table) { return reinterpret_cast<uint64_t>(table.data()); };
     RtFrame frame{};
     frame.triangleLights = address(m_tables.triangles);
-    frame.lightRows = address(m_tables.rows);
-    frame.lightIndices = address(m_tables.indices);
+    frame.pointLights = address(m_tables.points);
+    frame.lightRows = address(m_tables.rows.rows);
+    frame.lightEntries = address(m_tables.rows.entries);
     frame.lights = address(m_tables.others);
     frame.nodes = address(m_tables.nodes);
     frame.triangleLightCount = static_cast<uint>(m_tables.triangles.size());
+    frame.pointLightCount = static_cast<uint>(m_tables.points.size());
     frame.lightCount = static_cast<uint>(m_tables.others.size());
     frame.clusterCount = clusterCount();
     frame.flags = kFrameIllumination | kFrameSoftShadows;

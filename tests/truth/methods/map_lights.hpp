@@ -23,7 +23,7 @@ class MapLights {
     /// Frame whose tables are this map's.
     RtFrame describeFrame() const;
     const LightTables& tables() const { return m_tables; }
-    uint clusterCount() const { return static_cast<uint>(m_tables.rows.size()) - 1; }
+    uint clusterCount() const { return static_cast<uint>(m_world->bsp.clusterCount); }
 
   private:
     TextureLibrary m_textures;

@@ -15,12 +15,13 @@
 namespace q3rt::test {
 namespace {
 
-constexpr double kTolerance = 1e-4;      ///< relative
-constexpr float kBelowOne = 0.99999994f; ///< largest of the shader's random numbers
+constexpr double kTolerance = 1e-4; ///< relative
 constexpr size_t kPointCount = 2000;
-constexpr size_t kLongestFullEnumeration = 128; ///< lights; beyond that only candidates are enumerated
+constexpr uint kLongestFullEnumeration = 128; ///< lights of a row
 
 double sumOf(const vec3& v) { return double(v.x) + double(v.y) + double(v.z); }
+
+uint bitsOf(float number) { return static_cast<uint>(number * 0x1p24f) << 8; }
 
 /// Numbers of [0, 1) that only depend on their key.
 vec2 frozenSample(uint32_t point, uint32_t light) {
@@ -51,13 +52,13 @@ class ShadowCache {
     std::unordered_map<uint64_t, bool> m_known;
 };
 
-/// One point's lights and choices.
+/// One point's lights and choices. Lights are numbered: triangles, points, then those of no row.
 class PointMethods {
   public:
     explicit PointMethods(const MapLights& map)
         : m_map(map)
         , m_shadows(map)
-        , m_triangleCount(static_cast<uint>(map.tables().triangles.size()))
+        , m_rowLightCount(static_cast<uint>(map.tables().triangles.size() + map.tables().points.size()))
         , m_otherCount(static_cast<uint>(map.tables().others.size())) {
         m_inputs.visible = [this](const vec3& origin, const vec3& direction) {
             return !m_shadowed || m_shadows.isVisible(origin, direction);
@@ -69,9 +70,9 @@ class PointMethods {
         m_point = number;
         m_pixel = pixel;
         m_shadows.clear();
-        m_unshadowed.assign(m_triangleCount + m_otherCount, vec3(0.0f));
+        m_unshadowed.assign(m_rowLightCount + m_otherCount, vec3(0.0f));
         m_lit = m_unshadowed;
-        for (uint light = 0; light < m_triangleCount + m_otherCount; ++light) {
+        for (uint light = 0; light < m_rowLightCount + m_otherCount; ++light) {
             m_unshadowed[light] = runAlone(light, false);
             if (m_unshadowed[light] != vec3(0.0f)) m_lit[light] = runAlone(light, true);
         }
@@ -102,19 +103,23 @@ class PointMethods {
         return glm::length(sum) * 0x1p-24;
     }
 
-    /// Lights that the point's row tries.
-    RtLightRow rowOf(uint cullLights);
+    /// Lights that the point tries.
+    RtLightRow rowOf(uint cullLights) {
+        prepare(cullLights, 0);
+        return rowOfPixel(m_inputs, m_pixel);
+    }
 
   private:
-    vec4 randomOf(uint dimension) const {
-        const bool isTriangle = dimension < m_triangleCount;
-        if (!m_choosing || !isTriangle) {
-            const uint light = m_alone ? *m_alone : dimension;
-            const float reservoir = m_choosing && dimension - m_triangleCount + m_slots > m_kept ? kBelowOne : 0.0f;
-            return {frozenSample(m_point, light), reservoir, 0};
-        }
-        const Slot& slot = m_slot[dimension];
-        return {frozenSample(m_point, slot.light), dimension > m_kept ? kBelowOne : 0.0f, slot.random};
+    glm::uvec4 randomOf(uint dimension) const {
+        uint light = m_alone ? *m_alone : dimension;
+        const uint candidates = m_inputs.frame.candidatesPerChoice;
+        if (m_choosing && dimension >= candidates) light = dimension - candidates + m_rowLightCount;
+        if (m_choosing && dimension < m_slots) light = m_slot[dimension].light;
+        const vec2 sample = frozenSample(m_point, light);
+        // The first one wins with the least number and every later one loses with the largest.
+        const uint rank = dimension < candidates ? dimension : dimension - candidates + m_slots;
+        const uint reservoir = m_choosing && rank > m_kept ? ~0u : 0u;
+        return {bitsOf(sample.x), bitsOf(sample.y), reservoir, m_start};
     }
 
     void prepare(uint cullLights, uint lightsPerPixel) {
@@ -127,24 +132,22 @@ class PointMethods {
     }
 
     vec3 runAlone(uint light, bool shadowed);
-    void pickCandidates(const RtLightRow& row, uint candidates, uint round);
+    void pickCandidates(const RtLightRow& row, uint candidates, uint start);
+    void weighCandidates(const RtLightRow& row, float skySeen);
     double probabilityOf(size_t kept) const;
+    dvec3 runKept(size_t kept);
 
-    struct Slot {
-        uint light = 0, count = 1; ///< the light that it stands for, and how many it was taken from
-        float random = 0;          ///< number that takes it
-    };
     const MapLights& m_map;
     ShadowCache m_shadows;
-    const uint m_triangleCount, m_otherCount;
+    const uint m_rowLightCount, m_otherCount;
     DirectInputs m_inputs;
     uint32_t m_point = 0;
     RtPixel m_pixel{};
     bool m_shadowed = true, m_choosing = false;
     std::optional<uint> m_alone;
-    uint m_slots = 0, m_kept = 0; ///< triangle candidates; the candidate that is to win
-    std::vector<Slot> m_slot;
-    std::vector<double> m_weight; ///< of triangle candidates, then of the other lights
+    uint m_slots = 0, m_kept = 0, m_start = 0; ///< candidates of the row; the one that is to win; the number that draws
+    std::vector<Drawn> m_slot;
+    std::vector<double> m_weight; ///< of the candidates, then of the lights of no row
     std::vector<vec3> m_unshadowed, m_lit;
 };
 
@@ -152,40 +155,34 @@ vec3 PointMethods::runAlone(uint light, bool shadowed) {
     prepare(0, 0);
     m_shadowed = shadowed;
     m_alone = light;
-    const bool isTriangle = light < m_triangleCount;
-    const RtLightRow row{0, isTriangle ? 1u : 0u, m_map.tables().rows.back().seesSky};
+    const uint count = light < m_rowLightCount ? 1 : 0;
+    const RtLightEntry entry{light, 1, 0, 1};
+    const RtLightRow row{0, count, count, m_map.tables().rows.outside().seesSky, 0};
     m_inputs.frame.clusterCount = 0;
     m_inputs.frame.lightRows = reinterpret_cast<uint64_t>(&row);
-    m_inputs.frame.lightIndices = reinterpret_cast<uint64_t>(&light);
-    m_inputs.frame.lightCount = isTriangle ? 0 : 1;
-    if (!isTriangle) m_inputs.frame.lights += (light - m_triangleCount) * sizeof(RtLight);
+    m_inputs.frame.lightEntries = reinterpret_cast<uint64_t>(&entry);
+    m_inputs.frame.lightCount = 1 - count;
+    if (count == 0) m_inputs.frame.lights += (light - m_rowLightCount) * sizeof(RtLight);
     return runDirectStage(m_inputs, m_pixel);
 }
 
-RtLightRow PointMethods::rowOf(uint cullLights) {
-    const LightTables& tables = m_map.tables();
-    if (cullLights == 0) return tables.rows.back();
-    const vec3 origin = shadowOriginOf(m_pixel);
-    int node = tables.nodes.empty() ? -1 : 0;
-    while (node >= 0) {
-        const RtNode& at = tables.nodes[static_cast<size_t>(node)];
-        node = glm::dot(at.plane.normal, origin) - at.plane.distance > 0 ? at.front : at.back;
-    }
-    const int cluster = -2 - node;
-    return cluster >= 0 && cluster < static_cast<int>(m_map.clusterCount()) ? tables.rows[static_cast<size_t>(cluster)]
-                                                                            : tables.rows.back();
+void PointMethods::pickCandidates(const RtLightRow& row, uint candidates, uint start) {
+    m_start = start;
+    m_slots = row.facing > 0 ? candidates : 0;
+    m_slot.clear();
+    for (uint i = 0; i < m_slots; ++i)
+        m_slot.push_back(drawFromRow(m_inputs, row, start + i * (~0u / candidates)));
 }
 
-void PointMethods::pickCandidates(const RtLightRow& row, uint candidates, uint round) {
-    m_slots = std::min(row.count, candidates);
-    m_slot.assign(m_slots, {});
-    const float share = m_slots > 0 ? static_cast<float>(row.count) / static_cast<float>(m_slots) : 0.0f;
-    for (uint i = 0; i < m_slots; ++i) {
-        const auto first = static_cast<uint>(static_cast<float>(i) * share);
-        const uint end = i + 1 == m_slots ? row.count : static_cast<uint>(static_cast<float>(i + 1) * share);
-        const uint pick = round % (end - first);
-        m_slot[i] = {m_map.tables().indices[row.first + first + pick], end - first,
-                     (static_cast<float>(pick) + 0.5f) / static_cast<float>(end - first)};
+void PointMethods::weighCandidates(const RtLightRow& row, float skySeen) {
+    m_weight.clear();
+    for (const Drawn& slot : m_slot)
+        m_weight.push_back(sumOf(m_unshadowed[slot.light]) * double(slot.weight) / m_slots);
+    for (uint i = 0; i < m_otherCount; ++i) {
+        const bool fromSky = m_map.tables().others[i].kind != kLightSphere;
+        const double weight = sumOf(m_unshadowed[m_rowLightCount + i]);
+        const double sky = row.seesSky != 0 ? std::max(skySeen, kLeastSkyShare) : 0;
+        m_weight.push_back(fromSky ? weight * sky : weight);
     }
 }
 
@@ -201,43 +198,56 @@ double PointMethods::probabilityOf(size_t kept) const {
     return m_weight[kept] > 0 ? probability : 0;
 }
 
+/// The stage's value when that candidate is kept, times the probability of it.
+dvec3 PointMethods::runKept(size_t kept) {
+    const double probability = probabilityOf(kept);
+    if (probability <= 0) return dvec3(0);
+    m_choosing = true;
+    m_kept = static_cast<uint>(kept);
+    return dvec3(runDirectStage(m_inputs, m_pixel)) * probability;
+}
+
 dvec3 PointMethods::enumerateChoices(uint cullLights, uint candidates, float skySeen) {
-    const RtLightRow row = rowOf(cullLights);
+    prepare(cullLights, 1);
     const RtGridCell cell{vec3(0.0f), 1, vec3(0.0f), vec3(0.0f), skySeen};
+    m_inputs.frame.candidatesPerChoice = candidates;
+    m_inputs.frame.flags |= kFrameGrid;
+    m_inputs.frame.grid = reinterpret_cast<uint64_t>(&cell);
+    m_inputs.frame.gridOrigin = shadowOriginOf(m_pixel);
+    m_inputs.frame.gridCellSize = vec3(1.0f);
+    m_inputs.frame.gridCounts = ivec3(1);
+    const RtLightRow row = rowOfPixel(m_inputs, m_pixel);
+    // Every candidate goes through all that may be drawn in its place, the others follow from the same number. All
+    // candidates are distributed alike: of long rows one of them stands for all.
+    const bool all = row.facing <= kLongestFullEnumeration;
     dvec3 sum(0);
-    uint rounds = 1;
-    for (uint round = 0; round < rounds; ++round) {
-        pickCandidates(row, candidates, round);
-        for (const Slot& slot : m_slot)
-            rounds = std::max(rounds, slot.count);
-        m_weight.clear();
-        for (const Slot& slot : m_slot)
-            m_weight.push_back(sumOf(m_unshadowed[slot.light]) * slot.count);
-        for (uint i = 0; i < m_otherCount; ++i) {
-            const bool fromSky = m_map.tables().others[i].kind != kLightSphere;
-            const double weight = sumOf(m_unshadowed[m_triangleCount + i]);
-            const double sky = row.seesSky != 0 ? std::max(skySeen, kLeastSkyShare) : 0;
-            m_weight.push_back(fromSky ? weight * sky : weight);
-        }
-        for (size_t kept = 0; kept < m_weight.size(); ++kept) {
-            // A share's lights are equally likely; shorter shares have gone through all of theirs.
-            const bool isTriangle = kept < m_slots;
-            if (isTriangle && round >= m_slot[kept].count) continue;
-            const double probability = probabilityOf(kept);
-            if (probability <= 0) continue;
-            prepare(cullLights, 1);
-            m_inputs.frame.candidatesPerChoice = candidates;
-            m_inputs.frame.flags |= kFrameGrid;
-            m_inputs.frame.grid = reinterpret_cast<uint64_t>(&cell);
-            m_inputs.frame.gridOrigin = shadowOriginOf(m_pixel);
-            m_inputs.frame.gridCellSize = vec3(1.0f);
-            m_inputs.frame.gridCounts = ivec3(1);
-            m_choosing = true;
-            m_kept = static_cast<uint>(kept);
-            const double share = 1.0 / (isTriangle ? m_slot[kept].count : rounds);
-            sum += dvec3(runDirectStage(m_inputs, m_pixel)) * (probability * share);
+    for (uint column = 0; column < row.facing; ++column) {
+        const RtLightEntry& entry = m_map.tables().rows.entries[row.first + column];
+        for (const bool own : {true, false}) {
+            const double share = double(own ? entry.chance : 1 - entry.chance) / row.facing;
+            if (share <= 0) continue;
+            const double inColumn = own ? 0.5 * double(entry.chance) : 0.5 + 0.5 * double(entry.chance);
+            const auto bits = static_cast<uint>((column + inColumn) * 0x1p32 / row.facing);
+            const uint lightWanted = own ? entry.light : m_map.tables().rows.entries[row.first + entry.other].light;
+            // The number's last bit may be too coarse for a share: then it must be next to nothing of its light's own.
+            if (drawFromRow(m_inputs, row, bits).light != lightWanted) {
+                const double weight =
+                    double(own ? entry.weight : m_map.tables().rows.entries[row.first + entry.other].weight);
+                EXPECT_LT(share * weight, 1e-6);
+                continue;
+            }
+            for (uint slot = all ? 0 : m_point % candidates; slot < candidates; slot += all ? 1 : candidates) {
+                pickCandidates(row, candidates, bits - slot * (~0u / candidates));
+                weighCandidates(row, skySeen);
+                sum += runKept(slot) * (all ? share : share * candidates);
+            }
         }
     }
+    // Lights of no row are candidates always, whatever is drawn.
+    pickCandidates(row, candidates, 0);
+    weighCandidates(row, skySeen);
+    for (uint i = 0; i < m_otherCount; ++i)
+        sum += runKept(m_slots + i);
     return sum;
 }
 
@@ -249,7 +259,7 @@ double relativeDifference(const dvec3& a, const dvec3& b, double floor = 0) {
 
 struct Report {
     double worstSum = 0, worstChoice = 0, worstCull = 0;
-    size_t lit = 0, culledWrongly = 0, enumerations = 0, lightsAll = 0, lightsCulled = 0;
+    size_t lit = 0, culledWrongly = 0, enumerations = 0, lights[3] = {}; ///< tried, by rt_cullLights
 };
 
 Report checkMap(FileSource& files, const std::string& name) {
@@ -262,35 +272,32 @@ Report checkMap(FileSource& files, const std::string& name) {
         const dvec3 all = methods.runAll(0);
         if (all != dvec3(0)) ++report.lit;
         report.worstSum = std::max(report.worstSum, relativeDifference(all, methods.sumOfLights()));
-        report.lightsAll += methods.rowOf(0).count;
-        report.lightsCulled += methods.rowOf(1).count;
-        for (const uint cull : {0u, 1u}) {
+        for (const uint cull : {0u, 1u, 2u}) {
             const RtLightRow row = methods.rowOf(cull);
             const dvec3 culled = methods.runAll(cull);
+            report.lights[cull] += row.count;
             const double difference = relativeDifference(all, culled);
             report.worstCull = std::max(report.worstCull, difference);
             if (difference > kTolerance) {
                 ++report.culledWrongly;
                 const vec3& p = pixel.position;
-                std::printf("%s: at %.1f %.1f %.1f culling changes %.3f to %.3f luxel units\n", name.c_str(),
-                            double(p.x), double(p.y), double(p.z), 63.75 * all.x, 63.75 * culled.x);
+                std::printf("%s: at %.1f %.1f %.1f rt_cullLights %u changes %.3f to %.3f luxel units\n", name.c_str(),
+                            double(p.x), double(p.y), double(p.z), cull, 63.75 * all.x, 63.75 * culled.x);
             }
             const float skySeen = static_cast<float>(number % 5) * 0.25f;
-            for (const uint candidates : {1u, 16u, 4096u}) {
-                if (candidates > 16 && row.count > kLongestFullEnumeration) continue;
+            for (const uint candidates : {1u, 4u}) {
                 const dvec3 chosen = methods.enumerateChoices(cull, candidates, skySeen);
-                const double floor =
-                    methods.resolution() * (std::min(candidates, row.count) + map.tables().others.size());
+                const double floor = methods.resolution() * (candidates + map.tables().others.size());
                 report.worstChoice = std::max(report.worstChoice, relativeDifference(culled, chosen, floor));
                 ++report.enumerations;
             }
         }
         ++number;
     }
-    std::printf("%s: %u points (%zu lit), mean lights %.1f, with culling %.1f; %zu enumerations; worst relative "
-                "difference: sum of lights %.1e, choice %.1e, culling %.1e (%zu points beyond)\n",
-                name.c_str(), number, report.lit, double(report.lightsAll) / number,
-                double(report.lightsCulled) / number, report.enumerations, report.worstSum, report.worstChoice,
+    std::printf("%s: %u points (%zu lit), mean lights %.1f, by cluster %.1f, facing %.1f; %zu enumerations; worst "
+                "relative difference: sum of lights %.1e, choice %.1e, culling %.1e (%zu points beyond)\n",
+                name.c_str(), number, report.lit, double(report.lights[0]) / number, double(report.lights[1]) / number,
+                double(report.lights[2]) / number, report.enumerations, report.worstSum, report.worstChoice,
                 report.worstCull, report.culledWrongly);
     return report;
 }

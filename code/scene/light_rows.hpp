@@ -1,0 +1,38 @@
+#pragma once
+// The light table: which lights a point may see, by its cluster and its normal, and how much each is likely to give.
+// A light is only left out of a row where it gives exactly nothing: triangles are clipped through the BSP, so that all
+// clusters that they touch are known, not just those of their corners.
+
+#include <span>
+#include <vector>
+
+#include "scene/lights.hpp"
+#include "shaders/shared/rt_lights.h"
+
+namespace q3rt {
+
+/// What the table knows of a light.
+struct RowLight {
+    vec3 corner[3];      ///< a point light: all the same
+    vec3 normal{0};      ///< lit side; 0: all sides
+    float strength = 0;  ///< irradiance x distance^2 head on, luxel units qu^2, sum of the channels
+    float radiusQu = 0;  ///< of a sphere around the centre that holds it at any time
+    float reachQu = 0;   ///< it moves so far from here at most; infinite: it may be anywhere
+    float nearestQu = 0; ///< it is no brighter nearer than this
+    vec3 center() const { return (corner[0] + corner[1] + corner[2]) / 3.0f; }
+};
+/// Triangle lights, then point lights: the numbers that entries have.
+std::vector<RowLight> describeRowLights(std::span<const TriangleLight> triangles, std::span<const PointLight> points);
+
+struct LightRows {
+    std::vector<RtLightRow> rows; ///< as shaders/shared/rt_lights.h numbers them
+    std::vector<RtLightEntry> entries;
+
+    const RtLightRow& ofCluster(size_t cluster) const { return rows[cluster * kNormalClassCount]; }
+    const RtLightRow& outside() const { return rows.back(); }
+};
+
+/// The same map and lights give the same table, whatever the number of threads.
+LightRows buildLightRows(const World& world, const MaterialLibrary& materials, std::span<const RowLight> lights);
+
+} // namespace q3rt

@@ -1,0 +1,56 @@
+// Lights and the table of who sees which: one text for C++ and GLSL, scalar layout.
+#ifndef Q3RT_SHARED_RT_LIGHTS_H
+#define Q3RT_SHARED_RT_LIGHTS_H
+#include "types.h"
+SHARED_BEGIN
+
+struct RtTriangleLight {
+    vec3 corner;
+    float areaQu2;
+    vec3 edge1;
+    uint twoSided;
+    vec3 edge2;
+    float error; // bound of a sampled point's distance from the triangle's plane, qu
+    vec3 normal; // unit, lit side
+    uint reserved;
+    vec3 radiance; // luxel units / pi
+    uint reserved1;
+};
+
+SHARED_CONST kLightSphere = 0u;
+SHARED_CONST kLightSun = 1u;
+SHARED_CONST kLightSky = 2u;
+
+// Lights that are not triangles.
+struct RtLight {
+    vec3 position; // sphere: centre; sun: unit direction to it
+    uint kind;
+    vec3 power; // sphere: intensity, luxel units qu^2; sun, sky: irradiance, luxel units
+    float size; // sphere: radius, qu; sun: 1 - cos(half angle)
+    vec3 axis;  // spot: unit direction of its cone
+    float cosOuter; // -1: no cone
+};
+
+// Points of a cluster by their shading normal. Class 0: all; 1 + 2 axis: exactly along that axis, + 1 against it.
+SHARED_CONST kNormalClassCount = 7u;
+
+// Row of the light table, numbered cluster x kNormalClassCount + class; behind the last cluster stands one row for all
+// points outside.
+struct RtLightRow {
+    uint first;  // in lightEntries
+    uint count;  // lights that the map's visibility does not rule out
+    uint facing; // the first so many also shine toward this row; one of them is chosen at random
+    uint seesSky; // 0: no sky is potentially visible; suns cannot reach it
+    float plane;  // classes 1 and up: the row serves points at least so far along their normal, qu
+};
+
+// A light of a row, and a column of the row's alias table over the facing ones.
+struct RtLightEntry {
+    uint light;   // < triangleLightCount: a triangle light, else a point light
+    float chance; // that a drawn column gives its own light; else that of column `other`
+    uint other;
+    float weight; // 1 / probability of this light
+};
+
+SHARED_END
+#endif
