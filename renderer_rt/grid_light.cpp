@@ -14,49 +14,54 @@ namespace q3rt {
 
 namespace {
 
-// Of each cell. The estimate is unbiased with any of these; the grid's interpolation smooths what noise is left.
-constexpr int kShadowRays = 3;
-constexpr int kSkyRays = 12;
-constexpr size_t kLargestRow = 64; ///< triangle lights weighed; longer rows are strided
+using namespace glm;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+using uint = uint32_t;
 
-float largestOf(const vec3& v) { return std::max({v.x, v.y, v.z}); }
+#include "lib/light.glsl"
 
-/// Solid surfaces of the world model.
-std::vector<vec3> gatherOccluders(const World& world, const MaterialLibrary& materials) {
-    std::vector<vec3> positions;
-    const BspModel& model = world.bsp.models.front();
-    for (int s = 0; s < model.surfaceCount; ++s) {
-        const WorldSurface& surface = world.surfaces[static_cast<size_t>(model.firstSurface + s)];
-        const auto surfaceClass = classifySurface(materials.get(surface.material));
-        if (!surface.drawn || !surfaceClass || !isOpaqueClass(*surfaceClass) || *surfaceClass == SurfaceClass::Sky)
-            continue;
-        for (uint32_t i = 0; i < surface.indexCount; ++i)
-            positions.push_back(world.vertices[world.indices[surface.firstIndex + i]].position);
-    }
-    return positions;
-}
+/// Shadow rays of a cell to the lights of its row. The estimate is unbiased with any number.
+constexpr uint32_t kRowRays = 32;
+/// Directions of a cell: its own, the opposite one, four across.
+constexpr size_t kWays = 6;
+
+using Irradiance = std::array<vec3, kWays>;
 
 class GridExplainer {
   public:
     GridExplainer(const World& world, const MaterialLibrary& materials, LightTables& tables)
         : m_world(world)
         , m_tables(tables)
-        , m_tracer(gatherOccluders(world, materials))
-        , m_farQu(glm::length(world.bounds.maxs - world.bounds.mins)) {}
+        , m_farQu(2.0f * glm::length(world.bounds.maxs - world.bounds.mins)) {
+        std::vector<vec3> positions;
+        const BspModel& model = world.bsp.models.front();
+        for (int s = 0; s < model.surfaceCount; ++s) {
+            const WorldSurface& surface = world.surfaces[static_cast<size_t>(model.firstSurface + s)];
+            const auto surfaceClass = classifySurface(materials.get(surface.material));
+            if (!surface.drawn || !surfaceClass || !isOpaqueClass(*surfaceClass)) continue;
+            for (uint32_t i = 0; i < surface.indexCount; ++i)
+                positions.push_back(world.vertices[world.indices[surface.firstIndex + i]].position);
+            m_isSky.resize(positions.size() / 3, *surfaceClass == SurfaceClass::Sky);
+        }
+        m_tracer = std::make_unique<CpuTracer>(positions);
+    }
 
     void explain(size_t index, std::mt19937& random) const {
         RtGridCell& cell = m_tables.grid[index];
+        if (cell.valid == 0) return;
         const float length = glm::length(cell.direction);
-        if (cell.valid == 0 || length == 0.0f) return;
-        const vec3 point = pointOf(index), normal = cell.direction / length;
+        const Frame frame = frameAround(length > 0.0f ? cell.direction / length : vec3(0, 0, 1));
+        const vec3 point = pointOf(index);
         const int cluster = m_world.clusterOf(point);
         const RtLightRow& row = cluster >= 0 && cluster < m_world.bsp.clusterCount
                                     ? m_tables.rows.ofCluster(static_cast<size_t>(cluster))
                                     : m_tables.rows.outside();
-        vec3 explained = triangleLight(point, normal, row, random);
-        if (row.seesSky != 0) explained += skyLight(point, normal, random, cell.skySeen);
-        const float whole = largestOf(cell.directed);
-        if (whole > 0.0f) cell.directed *= std::max(0.0f, 1.0f - largestOf(explained) / whole);
+        Irradiance explained{};
+        addRow(point, row, frame, random, explained);
+        if (row.seesSky != 0) cell.sunSeen = addSuns(point, frame, explained);
+        takeAway(explained, cell);
     }
 
   private:
@@ -67,78 +72,81 @@ class GridExplainer {
                                                                   static_cast<float>(index / (nx * ny)));
     }
 
-    /// Light from the middle of each triangle, shadowed for some chosen in proportion to what they give.
-    vec3 triangleLight(const vec3& point, const vec3& normal, const RtLightRow& row, std::mt19937& random) const {
-        const size_t stride = (row.facing + kLargestRow - 1) / kLargestRow;
-        std::array<float, kLargestRow> running;
-        std::array<const RtTriangleLight*, kLargestRow> lights;
-        size_t count = 0;
-        float sum = 0;
-        for (size_t i = 0; stride > 0 && i < row.facing; i += stride) {
-            const uint32_t number = m_tables.rows.entries[row.first + i].light;
-            if (number >= m_tables.triangles.size()) continue;
-            const RtTriangleLight& light = m_tables.triangles[number];
-            sum += largestOf(unshadowed(point, normal, light)) * static_cast<float>(stride);
-            running[count] = sum;
-            lights[count++] = &light;
-        }
-        if (sum <= 0.0f) return vec3(0.0f);
-        std::uniform_real_distribution<float> uniform(0.0f, sum);
-        vec3 total(0.0f);
-        for (int ray = 0; ray < kShadowRays; ++ray) {
-            const size_t chosen = std::min(
-                static_cast<size_t>(
-                    std::lower_bound(running.begin(), running.begin() + static_cast<long>(count), uniform(random)) -
-                    running.begin()),
-                count - 1);
-            const vec3 given = unshadowed(point, normal, *lights[chosen]);
-            const vec3 toLight = middleOf(*lights[chosen]) - point;
-            // The ray stops short of the light's own surface by its bound.
-            const float end = 1.0f - std::min(1.0f, (lights[chosen]->error + 1.0f) / glm::length(toLight));
-            if (largestOf(given) > 0.0f && !m_tracer.occluded(point, toLight, end))
-                total += given * (sum / largestOf(given));
-        }
-        return total / static_cast<float>(kShadowRays);
+    /// Light that comes along a line, as irradiance across it.
+    static void add(const vec3& flux, const vec3& way, const Frame& frame, Irradiance& sum) {
+        const vec3 direction = glm::normalize(way);
+        const vec3 ways[kWays] = {frame.normal,   -frame.normal,   frame.tangent,
+                                  -frame.tangent, frame.bitangent, -frame.bitangent};
+        for (size_t k = 0; k < kWays; ++k)
+            sum[k] += flux * std::max(0.0f, dot(ways[k], direction));
     }
 
-    static vec3 middleOf(const RtTriangleLight& light) { return light.corner + (light.edge1 + light.edge2) / 3.0f; }
-
-    static vec3 unshadowed(const vec3& point, const vec3& normal, const RtTriangleLight& light) {
-        const vec3 toLight = middleOf(light) - point;
-        const float distance2 = std::max(dot(toLight, toLight), kLightMinDistanceQu * kLightMinDistanceQu);
-        const float receiver = dot(normal, toLight);
-        const float emitter = light.twoSided ? std::abs(dot(light.normal, toLight)) : -dot(light.normal, toLight);
-        if (receiver <= 0.0f || emitter <= 0.0f) return vec3(0.0f);
-        return light.radiance * (light.areaQu2 * receiver * emitter / (distance2 * distance2));
+    void addRow(const vec3& point, const RtLightRow& row, const Frame& frame, std::mt19937& random,
+                Irradiance& sum) const {
+        if (row.facing == 0) return;
+        std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
+        const auto start = static_cast<uint32_t>(random());
+        for (uint32_t i = 0; i < kRowRays; ++i) {
+            const DrawnLight drawn = drawLight(m_tables.rows, row, start + i * (~0u / kRowRays));
+            const float u = uniform(random), v = uniform(random);
+            vec3 way(0.0f), flux(0.0f);
+            if (drawn.light < m_tables.triangles.size())
+                lookAtTriangle(m_tables.triangles[drawn.light], point, u, v, way, flux);
+            else
+                lookAtPoint(m_tables.points[drawn.light - m_tables.triangles.size()], point, way, flux);
+            if (flux == vec3(0.0f) || m_tracer->occluded(point, way, 1.0f)) continue;
+            add(flux * (drawn.weight / kRowRays), way, frame, sum);
+        }
     }
 
-    /// Suns by one ray each, the sky by rays over all directions. `seen`: the larger share of either that arrives.
-    vec3 skyLight(const vec3& point, const vec3& normal, std::mt19937& random, float& seen) const {
-        vec3 total(0.0f);
-        std::normal_distribution<float> gauss;
-        seen = 0;
-        for (const RtLight& light : m_tables.others) {
-            if (light.kind == kLightSun && !m_tracer.occluded(point, light.position * m_farQu, 1.0f)) {
-                seen = 1;
-                total += light.power * std::max(0.0f, dot(normal, light.position));
-            }
-            if (light.kind != kLightSky) continue;
-            float arrived = 0, open = 0;
-            for (int ray = 0; ray < kSkyRays; ++ray) {
-                const vec3 direction = glm::normalize(vec3(gauss(random), gauss(random), gauss(random)) + vec3(1e-6f));
-                if (m_tracer.occluded(point, direction * m_farQu, 1.0f)) continue;
-                open += 1.0f / kSkyRays;
-                arrived += 4.0f * std::max(0.0f, dot(normal, direction)) / kSkyRays; // uniform: 1 / (4 pi); E = pi L
-            }
-            seen = std::max(seen, std::min(1.0f, 2.0f * open));
-            total += light.power * arrived;
+    static void lookAtTriangle(const RtTriangleLight& light, const vec3& point, float u, float v, vec3& way,
+                               vec3& flux) {
+        const vec3 corner = light.corner - point;
+        const float height = -dot(light.normal, corner);
+        // A point in the light's own plane takes nothing from it.
+        if (std::abs(height) <= light.error || (height < 0.0f && (light.flags & kLightTwoSided) == 0)) return;
+        const SphericalTriangle seen =
+            makeSphericalTriangle(corner, light.edge1, light.edge2, std::abs(height), light.areaQu2);
+        way = sampleSphericalTriangle(seen, u, v);
+        if ((light.flags & kLightUpward) != 0 && way.z <= 0.0f) return;
+        flux = light.radiance * (2.0f * seen.halfAngle);
+        way += light.normal * (height > 0.0f ? light.error : -light.error); // short of the light's own surface
+    }
+
+    static void lookAtPoint(const RtLight& light, const vec3& point, vec3& way, vec3& flux) {
+        way = light.position - point;
+        const float distance2 = std::max(dot(way, way), kLightMinDistanceQu * kLightMinDistanceQu);
+        flux = light.power / distance2;
+        if (light.spot > 0.0f) flux *= spotShare(light.axis, light.spot, -way);
+    }
+
+    /// Returns the share of the suns' light that arrives.
+    float addSuns(const vec3& point, const Frame& frame, Irradiance& sum) const {
+        float all = 0, arrived = 0;
+        for (const RtLight& sun : m_tables.others) {
+            CpuHit hit;
+            all += lightWeight(sun.power);
+            if (!m_tracer->closest(point, sun.position, 0.0f, m_farQu, hit) || !m_isSky[hit.triangle]) continue;
+            arrived += lightWeight(sun.power);
+            add(sun.power, sun.position, frame, sum);
         }
-        return total;
+        return all > 0 ? arrived / all : 0;
+    }
+
+    /// The cell says irradiance = ambient + directed x max(0, cosine with its direction). What is left of that, by
+    /// channel: along the direction what is not explained there, elsewhere no more than is not explained across and
+    /// behind. Never below 0.
+    static void takeAway(const Irradiance& explained, RtGridCell& cell) {
+        const vec3 around = (explained[1] + explained[2] + explained[3] + explained[4] + explained[5]) / 5.0f;
+        const vec3 along = glm::max(cell.ambient + cell.directed - explained[0], vec3(0.0f));
+        cell.ambient = glm::min(glm::max(cell.ambient - around, vec3(0.0f)), along);
+        cell.directed = along - cell.ambient;
     }
 
     const World& m_world;
     LightTables& m_tables;
-    CpuTracer m_tracer;
+    std::unique_ptr<CpuTracer> m_tracer;
+    std::vector<char> m_isSky; ///< by triangle of the tracer
     float m_farQu;
 };
 

@@ -6,7 +6,7 @@
 
 namespace q3rt {
 
-/// Changes `directed` and sets `skySeen` of every cell of `tables.grid`.
+/// Changes `directed` and sets `sunSeen` of every cell of `tables.grid`.
 void explainGrid(const World& world, const MaterialLibrary& materials, LightTables& tables);
 
 } // namespace q3rt

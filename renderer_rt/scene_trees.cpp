@@ -28,9 +28,10 @@ bool isFinite(const mat4& m) {
     return true;
 }
 
-uint8_t groupOf(SurfaceClass surfaceClass) {
-    const bool other = surfaceClass == SurfaceClass::Layer || surfaceClass == SurfaceClass::Sky;
-    return static_cast<uint8_t>(other ? kBvhOtherGroup : kBvhSolidGroup);
+/// Skies are looked for by themselves, and stop light.
+uint8_t groupsOf(SurfaceClass surfaceClass) {
+    if (surfaceClass == SurfaceClass::Sky) return kBvhSolidGroup | kBvhOtherGroup;
+    return static_cast<uint8_t>(surfaceClass == SurfaceClass::Layer ? kBvhOtherGroup : kBvhSolidGroup);
 }
 
 /// Groups that rays of these masks look for.
@@ -72,7 +73,7 @@ TreeData buildTree(std::span<const TreePart> parts, bool lasting) {
         const auto count = static_cast<uint32_t>(parts[p].indices.size() / 3);
         for (uint32_t number = 0; number < count; ++number)
             labels.push_back({number, flagsOf(parts[p].surfaceClass, p)});
-        groups.insert(groups.end(), count, groupOf(parts[p].surfaceClass));
+        groups.insert(groups.end(), count, groupsOf(parts[p].surfaceClass));
     }
     const std::vector<Bounds> boxes = triangleBounds(positions);
     const BvhBuildSettings settings{.groups = groups};

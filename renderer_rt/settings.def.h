@@ -4,6 +4,7 @@ SETTING(rt_illumination, Int, 1, 0, 1, A, "", "0 shows plain textures, 1 lights 
 SETTING(rt_cullLights, Int, 2, 0, 2, A, "", "0 tries all lights, 1 those potentially visible from the point's cluster, 2 leaves out those too that can't shine on it")
 SETTING(rt_numRandomDL, Int, 1, 0, 64, A, "lights", "lights chosen at random for each pixel; 0 all of them")
 SETTING(rt_lightCandidates, Int, 4, 1, 64, A, "lights", "weighed for each choice; drawn by what they give in the cluster's mean")
+SETTING(rt_blueNoise, Int, 1, 0, 1, A, "", "1 spreads samples evenly over frames and neighbouring pixels, 0 at random")
 SETTING(rt_softshadows, Int, 1, 0, 1, A, "", "suns and dynamic lights have a size")
 SETTING(rt_reflectionDepth, Int, 5, 1, 16, A, "", "mirrors, portals and reflections one after the other")
 SETTING(rt_lostLights, Int, 1, 0, 1, A, "", "lights of lights/MAP.ent, which 'q3rt relight' makes, in place of what scripts and map say")

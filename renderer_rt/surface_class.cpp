@@ -61,7 +61,8 @@ uint32_t surfaceFlags(const Material& material, SurfaceClass surfaceClass) {
 }
 
 uint8_t instanceMask(SurfaceClass surfaceClass, const Visibility& visibility) {
-    if (surfaceClass == SurfaceClass::Sky) return kMaskSky;
+    // To light a sky is what the map compilers take it for: a wall that shines.
+    if (surfaceClass == SurfaceClass::Sky) return kMaskSky | kMaskShadow;
     const bool layer = surfaceClass == SurfaceClass::Layer;
     uint32_t mask = 0;
     if (visibility.eye && visibility.near) mask |= layer ? kMaskNearLayer : kMaskNearSolid;

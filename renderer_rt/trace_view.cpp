@@ -84,6 +84,7 @@ void TraceRenderer::describeSettings(RtFrame& out) const {
     out.reflectionDepth = static_cast<uint32_t>(m_settings.rt_reflectionDepth);
     out.cullLights = static_cast<uint32_t>(m_settings.rt_cullLights);
     if (m_settings.rt_illumination) out.flags |= kFrameIllumination;
+    if (m_settings.rt_blueNoise) out.flags |= kFrameBlueNoise;
     if (m_settings.rt_softshadows) out.flags |= kFrameSoftShadows;
     if (m_settings.rt_antialiasing) out.flags |= kFrameAntialiasing;
     if (m_settings.rt_tonemap == 0) out.flags |= kFrameClampLight;
@@ -99,9 +100,9 @@ void TraceRenderer::describeSettings(RtFrame& out) const {
 
 std::vector<uint32_t> TraceRenderer::settingsKey() const {
     std::vector<uint32_t> key;
-    appendBits(key,
-               std::array{m_settings.rt_illumination, m_settings.rt_cullLights, m_settings.rt_softshadows,
-                          m_settings.rt_antialiasing, m_settings.rt_seed, m_settings.rt_tonemap, m_settings.rt_linear});
+    appendBits(key, std::array{m_settings.rt_illumination, m_settings.rt_cullLights, m_settings.rt_softshadows,
+                               m_settings.rt_blueNoise, m_settings.rt_antialiasing, m_settings.rt_seed,
+                               m_settings.rt_tonemap, m_settings.rt_linear});
     appendBits(key, std::array{m_settings.rt_ambient, m_settings.rt_exposure, m_settings.rt_minLight});
     return key;
 }

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 
+#include "blue_noise.hpp"
 #include "shaders/shared/constants.h"
+#include "shaders/shared/rt_noise.h"
 
 namespace q3rt {
 
 namespace {
+
+static_assert(sizeof(kBlueNoise) == kBlueNoiseSide * kBlueNoiseSide * sizeof(RtNoise));
 
 constexpr VkBufferUsageFlags kStreamUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                             VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
@@ -21,7 +25,14 @@ TracedScene::TracedScene(GpuContext& context, Backend backend)
     , m_structures(context.device(), context.ring().framesInFlight())
     , m_stream(context.device(),
                {.size = kStreamBytes, .usage = kStreamUsage, .domain = MemoryDomain::Upload, .name = "traced view"},
-               context.ring().framesInFlight()) {}
+               context.ring().framesInFlight()) {
+    m_noise = Buffer(context.device(),
+                     {.size = sizeof(kBlueNoise),
+                      .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                      .name = "blue noise"});
+    context.uploader().upload(m_noise, std::as_bytes(std::span(kBlueNoise)));
+    context.uploader().flush();
+}
 
 void TracedScene::setContent(const MaterialLibrary& materials, const TextureLibrary& textures) {
     dropContent();
@@ -40,7 +51,7 @@ void TracedScene::loadWorld(const World& world, const LightSet& lights) {
 
 void TracedScene::loadLights(const LightSet& lights) {
     m_lights = std::make_unique<WorldLights>(m_context.device(), m_context.uploader(), *m_world, m_builder->materials(),
-                                             lights);
+                                             lights, m_stages->textures());
 }
 
 void TracedScene::dropContent() {
@@ -74,6 +85,7 @@ void TracedScene::sendFogs(RtFrame& frame) {
                         .distance = fog.surface.distance,
                         .hasSurface = fog.hasSurface ? 1u : 0u});
     frame.fogs = send(fogs);
+    frame.noise = m_noise.address();
 }
 
 void TracedScene::sendLights(std::span<const SceneLight> lights, RtFrame& frame) {
@@ -211,6 +223,7 @@ TracedView TracedScene::prepare(const ViewGeometry& geometry, std::span<const Sc
         m_lights->describe(frame);
         const std::vector<RtTriangleLight> moved = m_lights->moveTriangles(geometry);
         if (!moved.empty()) frame.triangleLights = send(moved);
+        frame.lightColors = send(m_lights->colorsAt(geometry.entities[0].stage.shaderTimeSeconds));
     }
     if (m_tables.hasLayers) frame.flags |= kFrameLayers;
     if (m_tables.hasNear) frame.flags |= kFrameNearEntities;

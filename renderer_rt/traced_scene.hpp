@@ -71,6 +71,7 @@ class TracedScene {
     std::unique_ptr<StaticGeometry> m_statics;
     std::unique_ptr<WorldLights> m_lights;
     std::unique_ptr<ModelGeometry> m_models;
+    Buffer m_noise; ///< the blue-noise masks
     FrameStructures m_structures;
     GrowingBuffer m_stream;
     ViewTables m_tables;

@@ -31,11 +31,18 @@ RtTriangleLight makeTriangleLight(const TriangleLight& light) {
     out.normal = light.normal;
     out.areaQu2 = light.areaQu2;
     out.radiance = light.radiance;
-    out.twoSided = light.twoSided ? 1 : 0;
+    out.flags = (light.twoSided ? kLightTwoSided : 0) | (light.upward ? kLightUpward : 0);
     // |n| . error <= sqrt(3) x the largest component's error; the whole triangle has one bound. Samples are placed
     // relative to the shaded point: only the triangle's own size counts.
     out.error = 1.7320508f * kOwnTriangleError * (largestComponent(out.edge1) + largestComponent(out.edge2));
     return out;
+}
+
+/// The same light somewhere else.
+void replaceLight(RtTriangleLight& of, const TriangleLight& moved) {
+    const uint animation = of.animation;
+    of = makeTriangleLight(moved);
+    of.animation = animation;
 }
 
 /// A child of the map's tree as RtNode has it.
@@ -75,35 +82,22 @@ std::vector<RtGridCell> makeGrid(const World& world) {
 }
 
 RtLight makePointLight(const PointLight& light) {
+    const float cosine = light.cosOuter;
     return {.position = light.origin,
             .kind = kLightSphere,
             .power = light.intensity,
             .size = 0,
             .axis = light.direction,
-            .cosOuter = light.spot ? light.cosOuter : -1.0f};
+            .spot = light.spot ? std::sqrt(1.0f - cosine * cosine) / cosine : 0.0f};
 }
 
-/// All skies together: each is an environment of its radiosity, and a ray that leaves the map meets only one.
-std::vector<RtLight> makeOtherLights(const LightSet& lights) {
-    std::vector<RtLight> out;
-    for (const SunLight& sun : lights.suns)
-        out.push_back({.position = sun.direction,
-                       .kind = kLightSun,
-                       .power = sun.irradiance,
-                       .size = 1.0f - std::cos(sun.halfAngleRadians),
-                       .axis = vec3(0.0f),
-                       .cosOuter = -1.0f});
-    vec3 brightest(0.0f);
-    for (const SkyLight& sky : lights.skies)
-        brightest = glm::max(brightest, sky.radiosity * sky.color);
-    if (brightest != vec3(0.0f))
-        out.push_back({.position = vec3(0.0f),
-                       .kind = kLightSky,
-                       .power = brightest,
-                       .size = 0,
-                       .axis = vec3(0.0f),
-                       .cosOuter = -1.0f});
-    return out;
+RtLight makeSun(const SunLight& sun) {
+    return {.position = sun.direction,
+            .kind = kLightSun,
+            .power = sun.irradiance,
+            .size = 1.0f - std::cos(sun.halfAngleRadians),
+            .axis = vec3(0.0f),
+            .spot = 0};
 }
 
 } // namespace
@@ -114,7 +108,7 @@ RtLight makeDynamicLight(const vec3& origin, float radiusQu, const vec3& color) 
             .power = color * (kDynamicLightIntensity * radiusQu * radiusQu),
             .size = kLightMinDistanceQu,
             .axis = vec3(0.0f),
-            .cosOuter = -1.0f};
+            .spot = 0};
 }
 
 std::vector<bool> findSkyClusters(const World& world, const MaterialLibrary& materials) {
@@ -140,14 +134,21 @@ std::vector<bool> findSkyClusters(const World& world, const MaterialLibrary& mat
 }
 
 LightTables buildLightTables(const World& world, const MaterialLibrary& materials, const LightSet& lights,
-                             const std::vector<bool>& seesSky) {
+                             LightAnimation& animation) {
     LightTables tables;
-    for (const TriangleLight& light : lights.triangles)
+    std::vector<TriangleLight> triangles = lights.triangles;
+    const std::vector<TriangleLight> skies = skyTriangles(world, materials, lights);
+    triangles.insert(triangles.end(), skies.begin(), skies.end());
+    for (const TriangleLight& light : triangles) {
         tables.triangles.push_back(makeTriangleLight(light));
+        tables.triangles.back().animation = animation.find(world.surfaces[static_cast<size_t>(light.surface)].material);
+    }
     for (const PointLight& light : lights.points)
         tables.points.push_back(makePointLight(light));
-    tables.others = makeOtherLights(lights);
-    tables.rows = buildLightRows(world, materials, describeRowLights(lights.triangles, lights.points));
+    for (const SunLight& sun : lights.suns)
+        tables.others.push_back(makeSun(sun));
+    tables.rows = buildLightRows(world, materials, describeRowLights(triangles, lights.points));
+    const std::vector<bool> seesSky = findSkyClusters(world, materials);
     for (size_t r = 0; r < tables.rows.rows.size(); ++r) {
         const size_t cluster = r / kNormalClassCount;
         tables.rows.rows[r].seesSky = cluster >= seesSky.size() || seesSky[cluster] ? 1 : 0;
@@ -178,8 +179,9 @@ TriangleLight deformLight(const TriangleLight& light, const ViewGeometry& geomet
 }
 
 WorldLights::WorldLights(Device& device, Uploader& uploader, const World& world, const MaterialLibrary& materials,
-                         const LightSet& lights) {
-    LightTables tables = buildLightTables(world, materials, lights, findSkyClusters(world, materials));
+                         const LightSet& lights, const TextureLibrary& textures)
+    : m_animation(materials, textures) {
+    LightTables tables = buildLightTables(world, materials, lights, m_animation);
     explainGrid(world, materials, tables);
     m_others = tables.others;
     for (size_t i = 0; i < lights.triangles.size(); ++i) {
@@ -214,10 +216,9 @@ std::vector<RtTriangleLight> WorldLights::moveTriangles(const ViewGeometry& geom
         // A mover that the view doesn't hold is taken to be where the map has it.
         if (record == 0 || geometry.entities[record].worldFromModel == mat4(1.0f)) continue;
         if (moved.empty()) moved = m_resting;
-        RtTriangleLight& out = moved[index];
-        out = makeTriangleLight(moveLight(light, geometry.entities[record].worldFromModel));
+        replaceLight(moved[index], moveLight(light, geometry.entities[record].worldFromModel));
         // The instance that shows the light is not made of these corners.
-        out.error += 1.7320508f * kMatrixInverseError * largestComponent(out.corner);
+        moved[index].error += 1.7320508f * kMatrixInverseError * largestComponent(moved[index].corner);
     }
     if (!m_deformed.empty()) moveDeformed(geometry, moved);
     return moved;
@@ -229,7 +230,7 @@ void WorldLights::moveDeformed(const ViewGeometry& geometry, std::vector<RtTrian
         if (found == m_deformed.end()) continue;
         if (moved.empty()) moved = m_resting;
         for (const auto& [index, light] : found->second)
-            moved[index] = makeTriangleLight(deformLight(light, geometry, surface));
+            replaceLight(moved[index], deformLight(light, geometry, surface));
     }
 }
 

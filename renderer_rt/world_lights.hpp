@@ -7,6 +7,7 @@
 
 #include "gpu/uploader.hpp"
 #include "scene/entity_geometry.hpp"
+#include "scene/light_animation.hpp"
 #include "scene/light_rows.hpp"
 #include "shaders/shared/rt_scene.h"
 
@@ -14,16 +15,16 @@ namespace q3rt {
 
 /// What is uploaded, as plain tables: pure, testable.
 struct LightTables {
-    std::vector<RtTriangleLight> triangles;
-    std::vector<RtLight> points; ///< numbered on after the triangles
-    std::vector<RtLight> others; ///< suns and sky, in no row; a frame's dynamic lights follow them
+    std::vector<RtTriangleLight> triangles; ///< of emitters, then of skies
+    std::vector<RtLight> points;            ///< numbered on after the triangles
+    std::vector<RtLight> others;            ///< suns, in no row; a frame's dynamic lights follow them
     LightRows rows;
     std::vector<RtNode> nodes;
     std::vector<RtGridCell> grid;
 };
-/// `seesSky`: by cluster, see findSkyClusters().
+/// Animated emitters are entered into `animation`.
 LightTables buildLightTables(const World& world, const MaterialLibrary& materials, const LightSet& lights,
-                             const std::vector<bool>& seesSky);
+                             LightAnimation& animation);
 
 /// Clusters from which any part of a sky surface may be seen; all of them if a sky surface is in no cluster.
 std::vector<bool> findSkyClusters(const World& world, const MaterialLibrary& materials);
@@ -40,13 +41,15 @@ TriangleLight deformLight(const TriangleLight& light, const ViewGeometry& geomet
 class WorldLights {
   public:
     WorldLights(Device& device, Uploader& uploader, const World& world, const MaterialLibrary& materials,
-                const LightSet& lights);
+                const LightSet& lights, const TextureLibrary& textures);
     /// Fills the frame's light addresses and counts, all but those of `lights` (see others()).
     void describe(RtFrame& frame) const;
     /// All triangle lights, those of movers and deformed surfaces where the view has them; empty if all are where
     /// describe() says.
     std::vector<RtTriangleLight> moveTriangles(const ViewGeometry& geometry) const;
     const std::vector<RtLight>& others() const { return m_others; }
+    /// What animated lights are multiplied by at a time.
+    std::vector<vec3> colorsAt(double shaderTimeSeconds) const { return m_animation.evaluate(shaderTimeSeconds); }
     size_t triangleCount() const { return m_triangleCount; }
     size_t pointCount() const { return m_pointCount; }
     size_t rowEntryCount() const { return m_rowEntryCount; }
@@ -59,6 +62,7 @@ class WorldLights {
     };
     void moveDeformed(const ViewGeometry& geometry, std::vector<RtTriangleLight>& moved) const;
 
+    LightAnimation m_animation;
     std::vector<RtLight> m_others;
     std::vector<RtTriangleLight> m_resting; ///< all triangle lights; kept if some move
     std::vector<MovingLight> m_ofMovers;

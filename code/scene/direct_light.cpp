@@ -69,16 +69,17 @@ double triangleFormFactor(const vec3& point, const vec3& normal, const vec3 corn
 DirectLightTracer::DirectLightTracer(const World& world, const MaterialLibrary& materials, const LightSet& lights)
     : m_lights(lights)
     , m_occluders(world, materials)
-    , m_skyOfSurface(world.surfaces.size(), -1) {
-    for (size_t i = 0; i < lights.skies.size(); ++i)
-        if (lights.skies[i].surface >= 0)
-            m_skyOfSurface[static_cast<size_t>(lights.skies[i].surface)] = static_cast<int>(i);
+    , m_radiosity(world.surfaces.size(), vec3(0))
+    , m_upperRadiosity(world.surfaces.size(), vec3(0)) {
+    for (const SkyLight& sky : lights.skies)
+        (sky.upperHemisphere ? m_upperRadiosity : m_radiosity)[static_cast<size_t>(sky.surface)] +=
+            sky.radiosity * sky.color;
 }
 
 bool DirectLightTracer::reachesSky(const vec3& origin, const vec3& direction, int& sky) const {
     OccluderHit hit;
     if (!m_occluders.closest(origin, direction, m_occluders.farQu(), hit)) return false;
-    sky = m_skyOfSurface[hit.surface];
+    sky = static_cast<int>(hit.surface);
     return m_occluders.isSky(hit.surface);
 }
 
@@ -127,8 +128,10 @@ vec3 DirectLightTracer::skyLight(const vec3& origin, const vec3& normal, int ray
     for (int i = 0; i < rays; ++i) {
         const float u1 = (static_cast<float>(i) + uniform(random)) / static_cast<float>(rays);
         int sky = -1;
-        if (reachesSky(origin, cosineDirection(normal, u1, uniform(random)), sky) && sky >= 0)
-            sum += m_lights.skies[static_cast<size_t>(sky)].radiosity * m_lights.skies[static_cast<size_t>(sky)].color;
+        const vec3 direction = cosineDirection(normal, u1, uniform(random));
+        if (!reachesSky(origin, direction, sky)) continue;
+        sum += m_radiosity[static_cast<size_t>(sky)];
+        if (direction.z > 0) sum += m_upperRadiosity[static_cast<size_t>(sky)];
     }
     return sum / static_cast<float>(rays);
 }
@@ -139,7 +142,7 @@ vec3 DirectLightTracer::pointLight(const vec3& origin, const vec3& normal) const
         const vec3 to = light.origin - origin;
         const float distance = std::max(glm::length(to), kMinPointDistanceQu);
         const float cosine = glm::dot(to, normal) / std::max(glm::length(to), std::numeric_limits<float>::min());
-        const float share = light.spot ? spotShare(-to, light.direction, light.tangent()) : 1;
+        const float share = light.spot ? spotShare(light, -to) : 1.0f;
         if (cosine <= 0 || share <= 0) continue;
         if (!m_occluders.occluded(origin, to, 1)) sum += light.intensity * (share * cosine / (distance * distance));
     }

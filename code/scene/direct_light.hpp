@@ -36,7 +36,7 @@ class DirectLightTracer {
   private:
     const LightSet& m_lights;
     LightOccluders m_occluders;
-    std::vector<int> m_skyOfSurface; ///< index in LightSet::skies, -1 none; by surface
+    std::vector<vec3> m_radiosity, m_upperRadiosity; ///< of skies, by surface
 
     bool reachesSky(const vec3& origin, const vec3& direction, int& sky) const;
     vec3 surfaceLight(const vec3& origin, const vec3& normal, int rays, std::mt19937& random) const;

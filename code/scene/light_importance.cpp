@@ -9,7 +9,7 @@
 namespace q3rt {
 namespace {
 
-#include "lib/light_row.glsl"
+#include "shaders/lib/light_row.glsl"
 
 /// Points that stand for a row; more of them change little.
 constexpr size_t kPointsOfRow = 8, kPointsOfWorld = 64;

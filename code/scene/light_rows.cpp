@@ -156,6 +156,14 @@ void append(LightRows& rows, const ClusterRows& cluster, size_t rowCount) {
 
 } // namespace
 
+DrawnLight drawLight(const LightRows& rows, const RtLightRow& row, uint32_t bits) {
+    const uint64_t product = uint64_t{bits} * row.facing;
+    const RtLightEntry* entry = &rows.entries[row.first + static_cast<uint32_t>(product >> 32)];
+    const auto rest = static_cast<uint32_t>(product);
+    if (static_cast<float>(rest >> 8) * 0x1p-24f >= entry->chance) entry = &rows.entries[row.first + entry->other];
+    return {entry->light, entry->weight};
+}
+
 std::vector<RowLight> describeRowLights(std::span<const TriangleLight> triangles, std::span<const PointLight> points) {
     std::vector<RowLight> lights;
     for (const TriangleLight& triangle : triangles) {

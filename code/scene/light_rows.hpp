@@ -32,6 +32,13 @@ struct LightRows {
     const RtLightRow& outside() const { return rows.back(); }
 };
 
+/// One of a row's facing lights at random from 32 bits, as the shaders draw it, and 1 / its probability.
+struct DrawnLight {
+    uint32_t light = 0;
+    float weight = 0;
+};
+DrawnLight drawLight(const LightRows& rows, const RtLightRow& row, uint32_t bits);
+
 /// The same map and lights give the same table, whatever the number of threads.
 LightRows buildLightRows(const World& world, const MaterialLibrary& materials, std::span<const RowLight> lights);
 

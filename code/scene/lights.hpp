@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/world.hpp"
+#include "shaders/shared/constants.h"
 
 namespace q3rt {
 
@@ -20,6 +21,7 @@ struct TriangleLight {
     uint32_t triangle = 0; ///< its number in that surface
     bool flipped = false;  ///< lit from behind: corners 1 and 2 are exchanged against the surface's
     int bspModel = 0;      ///< 0 world, else the submodel that moves it
+    bool upward = false;   ///< only directions above the horizon shine (q3map_skylight)
     float reachQu = 0;     ///< deforms move it at most so far from here, at any time; may be infinite
     bool moves() const { return bspModel != 0 || reachQu > 0; }
 };
@@ -30,7 +32,7 @@ struct SunLight {
     float halfAngleRadians = 0;
 };
 
-/// One drawn sky surface with q3map_surfacelight, or one q3map_skylight of a drawn sky.
+/// One drawn sky surface with q3map_surfacelight, or with q3map_skylight; one with both is in the list twice.
 struct SkyLight {
     float radiosity = 0; ///< luxel units: irradiance of a surface that sees nothing but this sky
     vec3 color{1};       ///< largest component 1
@@ -50,14 +52,15 @@ struct PointLight {
     float tangent() const { return std::sqrt(std::max(0.0f, 1 - cosOuter * cosOuter)) / cosOuter; }
 };
 
-/// Width of the border of a spot light's circle, over which it fades inward, qu (spec of baked light).
-inline constexpr float kSpotBorderQu = 32;
-
-/// Share of a spot light's intensity that goes to a point; `tangent` of the angle from its axis to its border.
+/// Share of a spot light's intensity that goes to a point: 1 inside its cone, falling to 0 over the border of the disc
+/// that the cone cuts at the point's distance. `tangent` of the angle from its axis to its border.
 inline float spotShare(const vec3& fromLight, const vec3& axis, float tangent) {
     const float along = glm::dot(fromLight, axis);
     if (!(along > 0)) return 0;
     return glm::clamp((tangent * along - glm::length(fromLight - along * axis)) / kSpotBorderQu, 0.0f, 1.0f);
+}
+inline float spotShare(const PointLight& light, const vec3& fromLight) {
+    return spotShare(fromLight, light.direction, light.tangent());
 }
 
 struct LightSet {
@@ -68,6 +71,9 @@ struct LightSet {
     size_t emissiveSurfaces = 0;    ///< that gave triangles
     size_t zeroAreaTriangles = 0;   ///< of emissive surfaces, left out: they give no light
 };
+
+/// The sky surfaces as triangle lights: each sky gives its light through its own surfaces, and only there.
+std::vector<TriangleLight> skyTriangles(const World& world, const MaterialLibrary& materials, const LightSet& lights);
 
 /// Normal and area from the corners; false if it has no area (then it gives no light).
 bool measureTriangle(TriangleLight& light);

@@ -26,10 +26,31 @@ vec3 firstStageColor(const Material& material, const TextureLibrary& textures) {
     for (const Stage& stage : material.stages) {
         for (const TextureUnit& unit : stage.unit) {
             if (unit.frames.empty() || unit.isLightmap || unit.isWhite) continue;
-            return textures.get(unit.frames[0]).averageColor;
+            return vec3(textures.get(unit.frames[0]).averageColor);
         }
     }
     return vec3(0.0f);
+}
+
+/// Appends a light for each triangle of a surface that has an area; returns how many have none.
+size_t appendTriangles(const World& world, const Material& material, int number, TriangleLight light,
+                       std::vector<TriangleLight>& out) {
+    const WorldSurface& surface = world.surfaces[static_cast<size_t>(number)];
+    light.surface = number;
+    light.twoSided = material.cull == CullMode::None;
+    light.flipped = material.cull == CullMode::Back;
+    size_t without = 0;
+    for (uint32_t i = 0; i + 2 < surface.indexCount; i += 3) {
+        for (uint32_t k = 0; k < 3; ++k)
+            light.corner[k] = world.vertices[world.indices[surface.firstIndex + i + k]].position;
+        if (light.flipped) std::swap(light.corner[1], light.corner[2]);
+        light.triangle = i / 3;
+        if (measureTriangle(light))
+            out.push_back(light);
+        else
+            ++without;
+    }
+    return without;
 }
 
 class Extractor {
@@ -72,10 +93,10 @@ class Extractor {
         if (light.surfaceLight > 0.0f) {
             m_lights.skies.push_back({kRadiosityOfValue * light.surfaceLight, colorOf(material), number, false});
         }
-        if (!m_skiesSeen.insert(material.name).second) return;
         if (light.skyLight > 0.0f) {
             m_lights.skies.push_back({kSkyLightHalf * light.skyLight, colorOf(material), number, true});
         }
+        if (!m_skiesSeen.insert(material.name).second) return;
         for (const LightDirectives::Sun& sun : light.suns) {
             m_lights.suns.push_back({directionOfAngles(sun.yawDegrees, sun.pitchDegrees), sun.color * sun.intensity,
                                      glm::radians(sun.devianceDegrees)});
@@ -83,28 +104,14 @@ class Extractor {
     }
 
     void addEmitter(int number, const Material& material) {
-        const WorldSurface& surface = m_world.surfaces[static_cast<size_t>(number)];
         TriangleLight light;
         light.radiance =
             colorOf(material) * (kRadiosityOfValue * material.light.surfaceLight / std::numbers::pi_v<float>);
-        light.twoSided = material.cull == CullMode::None;
-        light.surface = number;
-        light.bspModel = surface.bspModel;
+        light.bspModel = m_world.surfaces[static_cast<size_t>(number)].bspModel;
         // A sprite turns with the eye. Light must not depend on who looks: it stays where the map has it.
         light.reachQu = deformsWithView(material) ? 0.0f : deformReachQu(material);
-        light.flipped = material.cull == CullMode::Back;
         const size_t before = m_lights.triangles.size();
-        for (uint32_t i = 0; i + 2 < surface.indexCount; i += 3) {
-            for (uint32_t k = 0; k < 3; ++k) {
-                light.corner[k] = m_world.vertices[m_world.indices[surface.firstIndex + i + k]].position;
-            }
-            if (light.flipped) std::swap(light.corner[1], light.corner[2]);
-            light.triangle = i / 3;
-            if (measureTriangle(light))
-                m_lights.triangles.push_back(light);
-            else
-                ++m_lights.zeroAreaTriangles;
-        }
+        m_lights.zeroAreaTriangles += appendTriangles(m_world, material, number, light, m_lights.triangles);
         if (m_lights.triangles.size() > before) ++m_lights.emissiveSurfaces;
     }
 };
@@ -137,6 +144,18 @@ bool measureTriangle(TriangleLight& light) {
     if (!(light.areaQu2 > 0.0f)) return false;
     light.normal = vec3(cross / length);
     return true;
+}
+
+std::vector<TriangleLight> skyTriangles(const World& world, const MaterialLibrary& materials, const LightSet& lights) {
+    std::vector<TriangleLight> triangles;
+    for (const SkyLight& sky : lights.skies) {
+        TriangleLight light;
+        light.radiance = sky.color * (sky.radiosity / std::numbers::pi_v<float>);
+        light.upward = sky.upperHemisphere;
+        const MaterialId material = world.surfaces[static_cast<size_t>(sky.surface)].material;
+        appendTriangles(world, materials.get(material), sky.surface, light, triangles);
+    }
+    return triangles;
 }
 
 LightSet extractLights(const World& world, const MaterialLibrary& materials) {

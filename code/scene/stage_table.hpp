@@ -33,6 +33,7 @@ class StageTable {
     /// Follows remapping (one level): pass the surface's own material. Materials that share stages share ranges.
     StageRange evaluate(MaterialId material, const StageInputs& inputs);
     const std::vector<StageState>& states() const { return m_states; }
+    const TextureLibrary& textures() const { return m_textures; }
 
   private:
     const MaterialLibrary& m_materials;

@@ -160,7 +160,7 @@ std::optional<vec3> TextureLibrary::averageColorOf(std::string_view name) {
     std::optional<vec3> mean;
     if (!name.empty() && name.front() != '*')
         if (auto image = findImage(m_files, name))
-            mean = averageColor({image->width, image->height, std::move(image->rgba)});
+            mean = vec3(averageColor({image->width, image->height, std::move(image->rgba)}));
     return m_averages[key] = mean;
 }
 

@@ -36,7 +36,7 @@ struct Texture {
     bool hasAlpha = false;        ///< any alpha other than 255
     bool missing = false;         ///< stands for a file that does not exist
     uint32_t version = 0;         ///< rises when the pixels change (cinematics): upload again
-    vec3 averageColor{0};         ///< mean rgb of level 0, [0, 1]
+    vec4 averageColor{0};         ///< mean of level 0, [0, 1]
 };
 
 struct TextureSettings {

@@ -175,14 +175,16 @@ U8vec4 intensityColor(const uint8_t* rgb) {
     return {U8vec4(vec4(colors[static_cast<int>(sextant)] * 255.0f, 255.0f))};
 }
 
-vec3 averageColor(const MipLevel& level) {
-    uint64_t sum[3] = {0, 0, 0};
+vec4 averageColor(const MipLevel& level) {
+    uint64_t sum[4] = {0, 0, 0, 0};
     for (size_t i = 0; i + 3 < level.rgba.size(); i += 4)
-        for (size_t k = 0; k < 3; ++k)
+        for (size_t k = 0; k < 4; ++k)
             sum[k] += level.rgba[i + k];
     const double scale = 255.0 * std::max<size_t>(1, level.rgba.size() / 4);
-    return {static_cast<float>(double(sum[0]) / scale), static_cast<float>(double(sum[1]) / scale),
-            static_cast<float>(double(sum[2]) / scale)};
+    vec4 mean;
+    for (int k = 0; k < 4; ++k)
+        mean[k] = static_cast<float>(double(sum[k]) / scale);
+    return mean;
 }
 
 } // namespace q3rt

@@ -17,8 +17,8 @@ MipLevel halveImage(const MipLevel& source, bool simple);
 std::vector<MipLevel> buildTextureLevels(MipLevel image, TextureFlags flags, const TextureSettings& settings);
 /// The gamma table of a device without hardware gamma.
 std::array<uint8_t, 256> buildGammaTable(float gamma, int overbrightBits);
-/// Mean of rgb, [0, 1].
-vec3 averageColor(const MipLevel& level);
+/// Mean of the texels, [0, 1].
+vec4 averageColor(const MipLevel& level);
 
 /// Intensity of raw lightmap bytes as a hue from red over green and blue, saturation 1, value 0.5 (r_lightmap 2).
 U8vec4 intensityColor(const uint8_t* rgb);

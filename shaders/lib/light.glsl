@@ -9,20 +9,28 @@
 struct LightSample {
     vec3 irradiance; // unshadowed estimate, already divided by the density of the sampled point
     vec3 direction;  // from the shaded point to the sampled point; the shadow ray covers t in [0, 1)
+    bool fromSky;    // the ray must end on a sky; else its way must be free
 };
 
+LightSample darkSample(vec3 direction)
+{
+    LightSample result;
+    result.irradiance = vec3(0.0f);
+    result.direction = direction;
+    result.fromSky = false;
+    return result;
+}
+
 // Lambertian triangle, a point uniform by solid angle: E = L x solid angle x cos(receiver), however near the light is.
-// `normal` and `lightNormal` are unit; `position` is the shaded point.
+// `normal` and `lightNormal` are unit; `position` is the shaded point; in the light's plane it takes nothing.
 LightSample sampleTriangleLight(vec3 position, vec3 normal, vec3 corner, vec3 edge1, vec3 edge2, vec3 lightNormal,
                                 float areaQu2, vec3 radiance, bool twoSided, float u, float v)
 {
-    LightSample result;
-    result.direction = corner - position;
-    result.irradiance = vec3(0.0f);
+    LightSample result = darkSample(corner - position);
     float height = -dot(lightNormal, result.direction);
     float above = dot(normal, result.direction);
     float highest = above + max(max(dot(normal, edge1), dot(normal, edge2)), 0.0f);
-    if (highest <= 0.0f || (height <= 0.0f && !twoSided))
+    if (highest <= 0.0f || height == 0.0f || (height < 0.0f && !twoSided))
         return result;
     SphericalTriangle seen = makeSphericalTriangle(result.direction, edge1, edge2, abs(height), areaQu2);
     result.direction = sampleSphericalTriangle(seen, u, v);
@@ -37,12 +45,10 @@ LightSample sampleTriangleLight(vec3 position, vec3 normal, vec3 corner, vec3 ed
 // A radius of 0 is a point with the map compilers' closest distance.
 LightSample sampleSphereLight(vec3 position, vec3 normal, vec3 center, float radiusQu, vec3 intensity, float u, float v)
 {
-    LightSample result;
     vec3 toCenter = center - position;
     float distance2 = dot(toCenter, toCenter);
     float radius2 = radiusQu * radiusQu;
-    result.direction = toCenter;
-    result.irradiance = vec3(0.0f);
+    LightSample result = darkSample(toCenter);
     if (radiusQu <= 0.0f) {
         float cosReceiver = distance2 > 0.0f ? dot(normal, toCenter) / sqrt(distance2) : 0.0f;
         float clamped = max(distance2, kLightMinDistanceQu * kLightMinDistanceQu);
@@ -70,68 +76,76 @@ LightSample sampleSphereLight(vec3 position, vec3 normal, vec3 center, float rad
 // A sun: `irradiance` at normal incidence; soft if it has an angle. The direction has length `farQu`.
 LightSample sampleSun(vec3 normal, vec3 toSun, float oneMinusCosAngle, vec3 irradiance, float farQu, float u, float v)
 {
-    LightSample result;
     vec3 direction = oneMinusCosAngle > 0.0f ? sampleCone(toSun, oneMinusCosAngle, u, v) : toSun;
-    result.direction = direction * farQu;
+    LightSample result = darkSample(direction * farQu);
     result.irradiance = irradiance * max(0.0f, dot(normal, direction));
+    result.fromSky = true;
     return result;
 }
 
-// A uniform sky of radiosity `irradiance` (pi x its radiance), one direction of cosine density.
-LightSample sampleSkyDome(vec3 normal, vec3 irradiance, float farQu, float u, float v)
+// Share of a spot light that shines on a point `way` from it: all inside its cone, none outside, less over the border
+// of the disc that the cone cuts at the point's distance. `radius`: of the cone at distance 1.
+float spotShare(vec3 axis, float radius, vec3 way)
 {
-    LightSample result;
-    result.direction = sampleCosine(normal, u, v) * farQu;
-    result.irradiance = irradiance;
-    return result;
+    float along = dot(way, axis);
+    vec3 off = way - axis * along;
+    return along > 0.0f ? clamp((along * radius - sqrt(dot(off, off))) / kSpotBorderQu, 0.0f, 1.0f) : 0.0f;
 }
 
 // --- choice of one light: weighted reservoir over the unshadowed irradiance (Chao 1982; Talbot et al. 2005, resampled
 // importance sampling, with every candidate its own sample). Given the sampled points, light i is kept with probability
 // w_i / sum w, and its irradiance is divided by that: the mean over all choices is the sum of all lights, exactly.
+// One random number decides all steps: the part of it that a step has not used is the next one's number.
 struct LightChoice {
-    vec3 irradiance; // of the kept sample, before the division
-    vec3 direction;
-    float weight;    // of the kept sample
+    LightSample kept;
+    float weight; // of the kept sample
     float weightSum;
+    float random; // [0, 1)
 };
 
 // The choice follows the sum of the channels: positive wherever any channel is.
 float lightWeight(vec3 irradiance) { return irradiance.x + irradiance.y + irradiance.z; }
 
-LightChoice emptyChoice()
+LightChoice beginChoice(float random)
 {
     LightChoice choice;
-    choice.irradiance = vec3(0.0f);
-    choice.direction = vec3(0.0f);
+    choice.random = random;
+    choice.kept = darkSample(vec3(0.0f));
     choice.weight = 0.0f;
     choice.weightSum = 0.0f;
     return choice;
 }
 
-// `random` in [0, 1). Any weight will do that is positive wherever the irradiance is: only the noise depends on it.
-LightChoice considerWeighted(LightChoice choice, LightSample candidate, float weight, float random)
+// Any weight will do that is positive wherever the irradiance is: only the noise depends on it.
+LightChoice considerWeighted(LightChoice choice, LightSample candidate, float weight)
 {
     if (!(weight > 0.0f))
         return choice;
     choice.weightSum += weight;
-    if (random * choice.weightSum < weight) {
-        choice.irradiance = candidate.irradiance;
-        choice.direction = candidate.direction;
+    float share = weight / choice.weightSum;
+    if (choice.random < share) {
+        choice.kept = candidate;
         choice.weight = weight;
+        choice.random = choice.random / share;
+    } else {
+        choice.random = (choice.random - share) / (1.0f - share);
     }
+    choice.random = min(choice.random, kBelowOne);
     return choice;
 }
 
 // A candidate that was drawn at random brings its weight in its irradiance.
-LightChoice considerLight(LightChoice choice, LightSample candidate, float random)
+LightChoice considerLight(LightChoice choice, LightSample candidate)
 {
-    return considerWeighted(choice, candidate, lightWeight(candidate.irradiance), random);
+    return considerWeighted(choice, candidate, lightWeight(candidate.irradiance));
 }
 
-vec3 chosenIrradiance(LightChoice choice)
+// The kept sample, divided by the probability of keeping it.
+LightSample chosenSample(LightChoice choice)
 {
-    return choice.weight > 0.0f ? choice.irradiance * (choice.weightSum / choice.weight) : vec3(0.0f);
+    LightSample result = choice.kept;
+    result.irradiance = choice.weight > 0.0f ? result.irradiance * (choice.weightSum / choice.weight) : vec3(0.0f);
+    return result;
 }
 
 #endif

@@ -5,9 +5,11 @@
 #include "shared/constants.h"
 
 // Angle of (x, y) from the x axis, y >= 0: in [0, pi]. Halved twice, so that the series of atan at most 0.415 is left:
-// its first missing term is 4.4e-8 of the result.
+// its first missing term is 4.4e-8 of the result. 0 for (0, 0).
 float angleOf(float y, float x)
 {
+    if (y == 0.0f)
+        return x >= 0.0f ? 0.0f : kPi;
     float r = sqrt(x * x + y * y);
     float halfTangent = x >= 0.0f ? y / (x + r) : y / (r - x);
     float t = halfTangent / (1.0f + sqrt(1.0f + halfTangent * halfTangent));

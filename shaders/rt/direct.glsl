@@ -6,14 +6,19 @@
 #define Q3RT_RT_DIRECT_GLSL
 #include "rt/grid.glsl"
 #include "rt/lights.glsl"
+#include "rt/sampler.glsl"
+#include "rt/sky_ray.glsl"
 
-const float kLeastSkyChance = 0.0625;
+const float kLeastSunChance = 0.0625;
 
-vec3 shadowed(ShadingPoint point, vec3 irradiance, vec3 direction)
+// Skies stop light as walls do.
+vec3 shadowed(ShadingPoint point, LightSample lit)
 {
-    if (lightWeight(irradiance) <= 0.0)
+    if (lightWeight(lit.irradiance) <= 0.0)
         return vec3(0.0);
-    return traceVisible(point.origin, direction, 1.0, kMaskShadow) ? irradiance : vec3(0.0);
+    bool open = lit.fromSky ? reachesSky(point.origin, lit.direction)
+                            : traceVisible(point.origin, lit.direction, 1.0, kMaskShadow);
+    return open ? lit.irradiance : vec3(0.0);
 }
 
 // Every light with its own shadow ray: rt_numRandomDL 0.
@@ -22,41 +27,36 @@ vec3 sumAllLights(ShadingPoint point, RtLightRow row, uvec4 key)
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < row.count; ++i) {
         uint light = LightEntryTable(rtFrame.lightEntries).at[row.first + i].light;
-        LightSample lit = sampleRowLight(light, point, randomNumbers(key, kDimensionLight + light).xy);
-        sum += shadowed(point, lit.irradiance, lit.direction);
+        LightSample lit = sampleRowLight(light, point, sampleNumbers(key, kDimensionLight + light).xy);
+        sum += shadowed(point, lit);
     }
     uint dimension = kDimensionLight + rtFrame.triangleLightCount + rtFrame.pointLightCount;
     for (uint i = 0u; i < rtFrame.lightCount; ++i) {
         RtLight light = LightTable(rtFrame.lights).at[i];
-        LightSample lit = sampleOther(light, point, randomNumbers(key, dimension + i).xy, row.seesSky != 0u);
-        sum += shadowed(point, lit.irradiance, lit.direction);
+        LightSample lit = sampleOther(light, point, sampleNumbers(key, dimension + i).xy, row.seesSky != 0u);
+        sum += shadowed(point, lit);
     }
     return sum;
 }
 
-// Candidates are some lights of the row, drawn by its own probabilities from one random number in equal steps, and all
-// lights that are in no row. Each candidate by itself is distributed as the row says.
-LightChoice chooseLight(ShadingPoint point, RtLightRow row, float skySeen, uvec4 key, uint choiceNumber)
+// Candidates are some lights of the row, drawn by its own probabilities from one number in equal steps, and all lights
+// that are in no row. Each candidate by itself is distributed as the row says. One place serves them all, each on its
+// own light; one number chooses among them.
+LightChoice chooseLight(ShadingPoint point, RtLightRow row, float sunSeen, uvec4 bits)
 {
-    LightChoice choice = emptyChoice();
+    vec4 random = unitFloats(bits);
+    LightChoice choice = beginChoice(random.z);
     uint count = row.facing > 0u ? rtFrame.candidatesPerChoice : 0u;
-    uint dimension = kDimensionLight + choiceNumber * (rtFrame.candidatesPerChoice + rtFrame.lightCount);
-    uint start = randomBits(key, dimension).w;
     uint step = 0xffffffffu / rtFrame.candidatesPerChoice;
     for (uint i = 0u; i < count; ++i) {
-        vec4 random = randomNumbers(key, dimension + i);
-        DrawnLight drawn = drawLight(row, start + i * step);
+        DrawnLight drawn = drawLight(row, bits.w + i * step);
         LightSample lit = sampleRowLight(drawn.light, point, random.xy);
         lit.irradiance *= drawn.weight / float(count);
-        choice = considerLight(choice, lit, random.z);
+        choice = considerLight(choice, lit);
     }
-    dimension += rtFrame.candidatesPerChoice;
     for (uint i = 0u; i < rtFrame.lightCount; ++i) {
-        vec4 random = randomNumbers(key, dimension + i);
-        RtLight light = LightTable(rtFrame.lights).at[i];
-        LightSample lit = sampleOther(light, point, random.xy, row.seesSky != 0u);
-        bool fromSky = light.kind != kLightSphere;
-        choice = considerWeighted(choice, lit, lightWeight(lit.irradiance) * (fromSky ? skySeen : 1.0), random.z);
+        LightSample lit = sampleOther(LightTable(rtFrame.lights).at[i], point, random.xy, row.seesSky != 0u);
+        choice = considerWeighted(choice, lit, lightWeight(lit.irradiance) * (lit.fromSky ? sunSeen : 1.0));
     }
     return choice;
 }
@@ -75,15 +75,15 @@ void directPixel(uvec2 pixelPosition)
         RtLightRow row = lightRowOf(point.origin, point.normal);
         uvec4 key = ownRandomKey(pixel);
         GridSample grid = sampleGrid(point.origin, point.normal);
-        // Where the grid saw no sky a thin chance stays: its cells are coarse.
-        float skySeen = max(grid.skySeen, kLeastSkyChance);
+        // Where the grid saw no sun a thin chance stays: its cells are coarse.
+        float sunSeen = max(grid.sunSeen, kLeastSunChance);
         vec3 irradiance = vec3(0.0);
         if (rtFrame.lightsPerPixel == 0u) {
             irradiance = sumAllLights(point, row, key);
         } else {
             for (uint n = 0u; n < rtFrame.lightsPerPixel; ++n) {
-                LightChoice choice = chooseLight(point, row, skySeen, key, n);
-                irradiance += shadowed(point, chosenIrradiance(choice), choice.direction);
+                LightChoice choice = chooseLight(point, row, sunSeen, sampleBits(key, kDimensionChoice + n));
+                irradiance += shadowed(point, chosenSample(choice));
             }
             irradiance /= float(rtFrame.lightsPerPixel);
         }

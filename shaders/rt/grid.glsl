@@ -7,7 +7,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Gri
 
 struct GridSample {
     vec3 irradiance; // luxel units
-    float skySeen;   // [0, 1]
+    float sunSeen;   // [0, 1]
 };
 
 // Trilinear over the cells that are not inside walls; no light, and all of the sky, where there are none.
@@ -16,7 +16,7 @@ GridSample sampleGrid(vec3 point, vec3 normal)
     GridSample result = GridSample(vec3(0.0), 1.0);
     if ((rtFrame.flags & kFrameGrid) == 0u)
         return result;
-    float skySeen = 0.0;
+    float sunSeen = 0.0;
     vec3 v = (point - rtFrame.gridOrigin) / rtFrame.gridCellSize;
     ivec3 cell = clamp(ivec3(floor(v)), ivec3(0), rtFrame.gridCounts - 1);
     vec3 f = clamp(v - vec3(cell), vec3(0.0), vec3(1.0));
@@ -34,7 +34,7 @@ GridSample sampleGrid(vec3 point, vec3 normal)
         ambient += sampled.ambient * weight;
         directed += sampled.directed * weight;
         direction += sampled.direction * weight;
-        skySeen += sampled.skySeen * weight;
+        sunSeen += sampled.sunSeen * weight;
         total += weight;
     }
     if (total <= 0.0)
@@ -42,7 +42,7 @@ GridSample sampleGrid(vec3 point, vec3 normal)
     float size2 = dot(direction, direction);
     float facing = size2 > 0.0 ? max(0.0, dot(normal, direction) * inversesqrt(size2)) : 0.0;
     result.irradiance = (ambient + directed * facing) / total;
-    result.skySeen = skySeen / total;
+    result.sunSeen = sunSeen / total;
     return result;
 }
 

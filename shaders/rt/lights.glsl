@@ -12,14 +12,16 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Tri
 };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightRowTable { RtLightRow at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightEntryTable { RtLightEntry at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightColorTable { vec3 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightTable { RtLight at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer NodeTable { RtNode at[]; };
 
-// Random dimensions of the direct stage: a light's sample takes kDimensionLight + its number.
+// Dimensions of a pixel's numbers. A choice takes kDimensionChoice + its number (rt_numRandomDL is at most 64); where
+// all lights are tried each takes kDimensionLight + its number. Layers: + 256 x their number.
 const uint kDimensionLens = 0u;
-const uint kDimensionChoice = 1u;
 const uint kDimensionLayer = 2u;
-const uint kDimensionLight = 16u;
+const uint kDimensionChoice = 16u;
+const uint kDimensionLight = 128u;
 
 uvec4 randomKey(uvec2 pixel) { return uvec4(pixel, rtFrame.frame, rtFrame.seed); }
 
@@ -90,7 +92,12 @@ LightSample sampleTriangle(uint light, ShadingPoint point, vec2 random)
 {
     RtTriangleLight l = TriangleLightTable(rtFrame.triangleLights).at[light];
     LightSample result = sampleTriangleLight(point.origin, point.normal, l.corner, l.edge1, l.edge2, l.normal,
-                                             l.areaQu2, l.radiance, l.twoSided != 0u, random.x, random.y);
+                                             l.areaQu2, l.radiance, (l.flags & kLightTwoSided) != 0u, random.x,
+                                             random.y);
+    if (l.animation != 0u)
+        result.irradiance *= LightColorTable(rtFrame.lightColors).at[l.animation - 1u];
+    if ((l.flags & kLightUpward) != 0u && result.direction.z <= 0.0)
+        result.irradiance = vec3(0.0);
     // A point in the light's own plane takes nothing from it: with a shading normal that leans off the face, an emitter
     // would light itself through nothing but rounding.
     if (abs(dot(l.normal, point.position - l.corner)) <= l.error + dot(abs(l.normal), point.error))
@@ -102,22 +109,23 @@ LightSample sampleTriangle(uint light, ShadingPoint point, vec2 random)
     return result;
 }
 
+LightSample sampleSphere(RtLight l, ShadingPoint point, vec2 random)
+{
+    float radius = (rtFrame.flags & kFrameSoftShadows) != 0u ? l.size : 0.0;
+    LightSample result =
+        sampleSphereLight(point.origin, point.normal, l.position, radius, l.power, random.x, random.y);
+    if (l.spot > 0.0)
+        result.irradiance *= spotShare(l.axis, l.spot, -result.direction);
+    return result;
+}
+
+// A light of no row; suns shine only where a sky may be seen.
 LightSample sampleOther(RtLight l, ShadingPoint point, vec2 random, bool seesSky)
 {
-    LightSample result;
-    if (l.kind == kLightSphere) {
-        result = sampleSphereLight(point.origin, point.normal, l.position,
-                                   (rtFrame.flags & kFrameSoftShadows) != 0u ? l.size : 0.0, l.power, random.x,
-                                   random.y);
-        if (l.cosOuter > -1.0 && dot(normalize(result.direction), -l.axis) < l.cosOuter)
-            result.irradiance = vec3(0.0);
-        return result;
-    }
-    if (l.kind == kLightSun)
-        result = sampleSun(point.normal, l.position, (rtFrame.flags & kFrameSoftShadows) != 0u ? l.size : 0.0, l.power,
-                           rtFrame.farQu, random.x, random.y);
-    else
-        result = sampleSkyDome(point.normal, l.power, rtFrame.farQu, random.x, random.y);
+    if (l.kind == kLightSphere)
+        return sampleSphere(l, point, random);
+    LightSample result = sampleSun(point.normal, l.position, (rtFrame.flags & kFrameSoftShadows) != 0u ? l.size : 0.0,
+                                   l.power, rtFrame.farQu, random.x, random.y);
     if (!seesSky)
         result.irradiance = vec3(0.0);
     return result;
@@ -128,7 +136,7 @@ LightSample sampleRowLight(uint light, ShadingPoint point, vec2 random)
 {
     if (light < rtFrame.triangleLightCount)
         return sampleTriangle(light, point, random);
-    return sampleOther(LightTable(rtFrame.pointLights).at[light - rtFrame.triangleLightCount], point, random, false);
+    return sampleSphere(LightTable(rtFrame.pointLights).at[light - rtFrame.triangleLightCount], point, random);
 }
 
 #endif

@@ -8,6 +8,7 @@
 #include "rt/accept.glsl"
 #include "rt/lights.glsl"
 #include "rt/past.glsl"
+#include "rt/sampler.glsl"
 #include "rt/sky.glsl"
 #include "rt/turn.glsl"
 
@@ -258,7 +259,7 @@ void primaryPixel(uvec2 pixelPosition)
     uvec4 key = randomKey(pixelPosition);
     vec2 inPixel = vec2(0.5);
     if ((rtFrame.flags & kFrameAntialiasing) != 0u)
-        inPixel = (rtFrame.flags & kFrameSharedJitter) != 0u ? rtFrame.jitter : randomNumbers(key, kDimensionLens).xy;
+        inPixel = (rtFrame.flags & kFrameSharedJitter) != 0u ? rtFrame.jitter : sampleNumbers(key, kDimensionLens).xy;
     Picture picture;
     picture.at = vec2(pixelPosition) + inPixel;
     CameraRay ray = makeCameraRay(picture.at);

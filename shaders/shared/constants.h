@@ -13,12 +13,18 @@ SHARED_FLOAT kWhiteIrradiance = 63.75f;
 // Closest distance of the map compilers' inverse-square law, qu. A light nearer than this is no brighter.
 SHARED_FLOAT kLightMinDistanceQu = 16.0f;
 
+// Width of the border of a spot light's disc in which the map compilers let it fade, qu.
+SHARED_FLOAT kSpotBorderQu = 32.0f;
+
 // The engine's dynamic light adds colour x 4000 / (255 d^2), d in texels of radius / 16: in qu (4000 / (255 x 256)) x
 // (radius / d)^2 of a texture's own brightness. Times kWhiteIrradiance: luxel units per radius^2.
 SHARED_FLOAT kDynamicLightIntensity = 3.90625f;
 
 // u of binary32, round to nearest: |fl(x) - x| <= u |x|.
 SHARED_FLOAT kUnitRoundoff = 5.9604644775390625e-8f;
+
+// Largest binary32 number below 1.
+SHARED_FLOAT kBelowOne = 0.999999940395355f;
 
 // Roundings, gamma(n) = n u / (1 - n u) (Higham 2002, lemma 3.1; Pharr, Jakob, Humphreys 2016, section 3.9).
 //

@@ -8,27 +8,29 @@ struct RtTriangleLight {
     vec3 corner;
     float areaQu2;
     vec3 edge1;
-    uint twoSided;
+    uint flags; // kLight*
     vec3 edge2;
     float error; // bound of a sampled point's distance from the triangle's plane, qu
     vec3 normal; // unit, lit side
-    uint reserved;
+    uint animation; // 1 + index of its colour in the frame's table; 0: it never changes
     vec3 radiance; // luxel units / pi
-    uint reserved1;
+    uint reserved;
 };
+
+SHARED_CONST kLightTwoSided = 0x1u;
+SHARED_CONST kLightUpward = 0x2u; // shines only where it is seen above the horizon
 
 SHARED_CONST kLightSphere = 0u;
 SHARED_CONST kLightSun = 1u;
-SHARED_CONST kLightSky = 2u;
 
 // Lights that are not triangles.
 struct RtLight {
     vec3 position; // sphere: centre; sun: unit direction to it
     uint kind;
-    vec3 power; // sphere: intensity, luxel units qu^2; sun, sky: irradiance, luxel units
+    vec3 power; // sphere: intensity, luxel units qu^2; sun: irradiance, luxel units
     float size; // sphere: radius, qu; sun: 1 - cos(half angle)
     vec3 axis;  // spot: unit direction of its cone
-    float cosOuter; // -1: no cone
+    float spot; // radius of its cone at distance 1; 0: no cone
 };
 
 // Points of a cluster by their shading normal. Class 0: all; 1 + 2 axis: exactly along that axis, + 1 against it.

@@ -89,7 +89,7 @@ struct RtGridCell {
     uint valid;   // 0: inside a wall
     vec3 directed;
     vec3 direction; // toward the light, as stored: not unit after interpolation
-    float skySeen;  // share of the suns' and the sky's light that arrives here, [0, 1]: a guide for choosing lights
+    float sunSeen; // share of the suns that shine here, [0, 1]: a guide for choosing lights
 };
 
 struct RtSky {
@@ -140,6 +140,7 @@ SHARED_CONST kFrameClampLight = 0x100u;  // the picture shows light as the engin
 SHARED_CONST kFrameHistory = 0x200u;     // guides and pasts are wanted
 SHARED_CONST kFrameKeepRadiance = 0x400u; // the composite's radiance is wanted
 SHARED_CONST kFrameLinear = 0x800u;       // colours are decoded to light
+SHARED_CONST kFrameBlueNoise = 0x1000u;   // rt_blueNoise
 SHARED_CONST kFrameCountWork = 0x10000u;  // into RtReport::work
 
 struct RtFrame {
@@ -151,11 +152,13 @@ struct RtFrame {
     SHARED_ADDRESS pointLights; // RtLight[]: those that stay; numbered on after the triangle lights
     SHARED_ADDRESS lightRows;
     SHARED_ADDRESS lightEntries;
+    SHARED_ADDRESS lightColors; // vec3[]: what animated lights are multiplied by in this frame
     SHARED_ADDRESS lights; // RtLight[]: suns and the frame's dynamic lights, in no row
     SHARED_ADDRESS nodes;
     SHARED_ADDRESS grid;
     SHARED_ADDRESS skies;
     SHARED_ADDRESS fogs;
+    SHARED_ADDRESS noise; // RtNoise[]: kBlueNoiseSide rows
     SHARED_ADDRESS portals;
     SHARED_ADDRESS treeNodes;     // back end `compute`: scene tree over the instances
     SHARED_ADDRESS treeInstances; // in its leaf order

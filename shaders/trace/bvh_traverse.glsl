@@ -5,7 +5,8 @@
 //   uint loadBvhChild(BVH_TABLE nodes, uint index, uint slot)         the same node's child[slot]
 //   float loadBvhCoordinate(BVH_TABLE triangles, uint index, uint corner, uint axis)
 //   BvhInstance loadBvhInstance(INOUT(BvhQuery) query, uint item)     the instance at a leaf item of the scene tree
-//   float onBvhTriangle(INOUT(BvhQuery) query, uint item, BVH_TABLE triangles, uint index, TriangleHit test, float tMax)
+//   float onBvhTriangle(INOUT(BvhQuery) query, uint item, BVH_TABLE triangles, uint index, TriangleHit test,
+//                       float tMax)
 //     a triangle that the ray meets, of the instance at that item; returns how far the search goes on: tMax, or less,
 //     or kBvhFound, which ends it
 #ifndef Q3RT_TRACE_BVH_TRAVERSE_GLSL
@@ -39,7 +40,8 @@ BvhRay toModelSpace(BvhInstance instance, vec3 origin, vec3 direction)
 
 vec3 loadBvhCorner(BVH_TABLE triangles, uint index, uint corner, uvec3 axes)
 {
-    return vec3(loadBvhCoordinate(triangles, index, corner, axes.x), loadBvhCoordinate(triangles, index, corner, axes.y),
+    return vec3(loadBvhCoordinate(triangles, index, corner, axes.x),
+                loadBvhCoordinate(triangles, index, corner, axes.y),
                 loadBvhCoordinate(triangles, index, corner, axes.z));
 }
 
@@ -67,7 +69,8 @@ void traverseBvh(BVH_TABLE sceneNodes, vec3 origin, vec3 direction, float tMin, 
     // A word holds a node and those of its children that are still to be visited, a bit each: one push a visit at most.
     // Words below `modelBase` belong to the scene.
     const uint slots = (1u << kBvhWidth) - 1u;
-    uint wanted = ((groups & kBvhSolidGroup) != 0u ? slots : 0u) | ((groups & kBvhOtherGroup) != 0u ? slots << kBvhWidth : 0u);
+    uint wanted = ((groups & kBvhSolidGroup) != 0u ? slots : 0u) |
+                  ((groups & kBvhOtherGroup) != 0u ? slots << kBvhWidth : 0u);
     uint stack[2u * kBvhMaxDepth];
     uint top = 0u;
     const uint kNoModel = 0xffffffffu;

@@ -3,12 +3,16 @@
 //   trace_query.glsl     VK_KHR_ray_query, in compute shaders
 //   trace_compute.glsl   our own tree, in compute shaders
 // Each gives
-//   Sight traceSight(vec3 origin, vec3 direction, float tMin, float tMax, uint solidMask, uint layerMask, LayerKey after)
+//   Sight traceSight(vec3 origin, vec3 direction, float tMin, float tMax, uint solidMask, uint layerMask,
+//                    LayerKey after)
 //     what a ray that looks sees: the closest solid of an instance with a bit of solidMask in (tMin, tMax), back faces
 //     culled, and of the layers of layerMask behind `after` in drawing order those that are drawn first, as far as the
 //     solid. A mask of 0: none is looked for. A layer's key is nearer than its triangle: none is missed behind
 //     after.distance.
-//   bool traceVisible(vec3 origin, vec3 direction, float tMax, uint mask)    nothing solid in (0, tMax)
+//   Hit traceClosest(vec3 origin, vec3 direction, float tMax, uint mask)
+//     the first solid in (0, tMax), from either side
+//   bool traceVisible(vec3 origin, vec3 direction, float tMax, uint mask)
+//     nothing solid in (0, tMax), from either side
 // and asks the stage for
 //   bool acceptHit(uint instance, uint triangle, vec2 barycentric, float t, vec3 direction)
 //     of every non-opaque triangle, in any order and perhaps more than once: is there something at this point?

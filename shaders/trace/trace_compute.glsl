@@ -21,7 +21,9 @@ float loadBvhCoordinate(uvec2 triangles, uint index, uint corner, uint axis)
 }
 
 struct BvhQuery {
-    bool looks; // a literal at every call: the code and data of the other kind fold away
+    // Literals at every call: the code and data of other kinds fold away.
+    bool looks; // for the closest; otherwise for any
+    bool culls; // back faces
     uint solidMask;
     uint layerMask;
     vec3 origin;
@@ -50,7 +52,7 @@ float onBvhTriangle(inout BvhQuery query, uint item, uvec2 triangles, uint index
             insertLayer(query.sight.layers, Layer(LayerKey(distance, instance, number), test.t, test.barycentric));
         return tMax;
     }
-    if (query.looks && (flags & kBvhTriangleCullBack) != 0u && !test.frontFace)
+    if (query.culls && (flags & kBvhTriangleCullBack) != 0u && !test.frontFace)
         return tMax;
     // The search goes on a little behind the solid where layers are looked for.
     if (query.looks && query.sight.solid.t > 0.0 && test.t >= query.sight.solid.t)
@@ -68,22 +70,31 @@ float onBvhTriangle(inout BvhQuery query, uint item, uvec2 triangles, uint index
 
 uint groupsOf(uint mask)
 {
-    return ((mask & kMasksOfSolids) != 0u ? kBvhSolidGroup : 0u) | ((mask & ~kMasksOfSolids) != 0u ? kBvhOtherGroup : 0u);
+    return ((mask & kMasksOfSolids) != 0u ? kBvhSolidGroup : 0u) |
+           ((mask & ~kMasksOfSolids) != 0u ? kBvhOtherGroup : 0u);
 }
 
 Sight traceSight(vec3 origin, vec3 direction, float tMin, float tMax, uint solidMask, uint layerMask, LayerKey after)
 {
-    BvhQuery query = BvhQuery(true, solidMask, layerMask, origin, direction, Sight(noHit(), emptyBatch(after)));
+    BvhQuery query = BvhQuery(true, true, solidMask, layerMask, origin, direction, Sight(noHit(), emptyBatch(after)));
     uint mask = solidMask | layerMask;
     traverseBvh(rtFrame.treeNodes, origin, direction, tMin, layerMask != 0u ? layerReach(tMax, origin) : tMax, mask,
                 groupsOf(mask), query);
     return query.sight;
 }
 
+Hit traceClosest(vec3 origin, vec3 direction, float tMax, uint mask)
+{
+    BvhQuery query =
+        BvhQuery(true, false, mask, 0u, origin, direction, Sight(noHit(), emptyBatch(LayerKey(0.0, 0u, 0u))));
+    traverseBvh(rtFrame.treeNodes, origin, direction, 0.0, tMax, mask, groupsOf(mask), query);
+    return query.sight.solid;
+}
+
 bool traceVisible(vec3 origin, vec3 direction, float tMax, uint mask)
 {
     BvhQuery query =
-        BvhQuery(false, mask, 0u, origin, direction, Sight(noHit(), emptyBatch(LayerKey(0.0, 0u, 0u))));
+        BvhQuery(false, false, mask, 0u, origin, direction, Sight(noHit(), emptyBatch(LayerKey(0.0, 0u, 0u))));
     traverseBvh(rtFrame.treeNodes, origin, direction, 0.0, tMax, mask, groupsOf(mask), query);
     return query.sight.solid.t == 0.0;
 }

@@ -23,6 +23,14 @@ Sight traceSight(vec3 origin, vec3 direction, float tMin, float tMax, uint solid
     return Sight(recordPayload, layersPayload);
 }
 
+Hit traceClosest(vec3 origin, vec3 direction, float tMax, uint mask)
+{
+    recordPayload = noHit();
+    traceRayEXT(sceneStructure, gl_RayFlagsNoneEXT, mask, kHitGroupRecord, 0u, kMissRecord, origin, 0.0, direction,
+                tMax, 0);
+    return recordPayload;
+}
+
 bool traceVisible(vec3 origin, vec3 direction, float tMax, uint mask)
 {
     visiblePayload = 0u;

@@ -18,11 +18,10 @@ void settleQuery(rayQueryEXT query, vec3 direction)
     }
 }
 
-Hit closestSolid(vec3 origin, vec3 direction, float tMin, float tMax, uint mask)
+Hit closestSolid(uint rayFlags, vec3 origin, vec3 direction, float tMin, float tMax, uint mask)
 {
     rayQueryEXT query;
-    rayQueryInitializeEXT(query, sceneStructure, gl_RayFlagsCullBackFacingTrianglesEXT, mask, origin, tMin, direction,
-                          tMax);
+    rayQueryInitializeEXT(query, sceneStructure, rayFlags, mask, origin, tMin, direction, tMax);
     settleQuery(query, direction);
     if (rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT)
         return noHit();
@@ -52,11 +51,16 @@ Sight traceSight(vec3 origin, vec3 direction, float tMin, float tMax, uint solid
 {
     Sight sight = Sight(noHit(), emptyBatch(after));
     if (solidMask != 0u)
-        sight.solid = closestSolid(origin, direction, tMin, tMax, solidMask);
+        sight.solid = closestSolid(gl_RayFlagsCullBackFacingTrianglesEXT, origin, direction, tMin, tMax, solidMask);
     if (layerMask != 0u)
         sight.layers = firstLayers(origin, direction, tMin,
                                    layerReach(sight.solid.t > 0.0 ? sight.solid.t : tMax, origin), layerMask, after);
     return sight;
+}
+
+Hit traceClosest(vec3 origin, vec3 direction, float tMax, uint mask)
+{
+    return closestSolid(gl_RayFlagsNoneEXT, origin, direction, 0.0, tMax, mask);
 }
 
 bool traceVisible(vec3 origin, vec3 direction, float tMax, uint mask)

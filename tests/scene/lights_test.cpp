@@ -108,10 +108,15 @@ TEST_F(LightsTest, SkyGivesASunAndSkyLightButNoTriangles) {
     ASSERT_EQ(lights.suns.size(), 1u) << "once a sky, not once a surface";
     EXPECT_NEAR(glm::distance(lights.suns[0].direction, vec3(0, std::sqrt(0.75f), 0.5f)), 0, 1e-6f);
     EXPECT_NEAR(glm::distance(lights.suns[0].irradiance, vec3(80, 40, 40)), 0, 1e-4f);
-    ASSERT_EQ(lights.skies.size(), 3u);
+    ASSERT_EQ(lights.skies.size(), 4u);
     EXPECT_FLOAT_EQ(lights.skies[0].radiosity, 150);
     EXPECT_FLOAT_EQ(lights.skies[1].radiosity, 30);
     EXPECT_TRUE(lights.skies[1].upperHemisphere);
+    const std::vector<TriangleLight> shining = skyTriangles(m_world, m_libraries->materials, lights);
+    ASSERT_EQ(shining.size(), 4u);
+    EXPECT_FLOAT_EQ(shining[0].radiance.r, 150 / std::numbers::pi_v<float>);
+    EXPECT_FALSE(shining[0].upward);
+    EXPECT_TRUE(shining[1].upward);
 }
 
 TEST_F(LightsTest, LightEntities) {
@@ -126,6 +131,11 @@ TEST_F(LightsTest, LightEntities) {
     EXPECT_TRUE(lights.points[1].spot);
     EXPECT_NEAR(lights.points[1].cosOuter, std::sqrt(0.5f), 1e-6f);
     EXPECT_EQ(lights.points[1].direction, vec3(0, 0, -1));
+    // The cone's disc is as large as the target is far; the last 32 units of its radius fade.
+    EXPECT_EQ(spotShare(lights.points[1], {0, 0, -100}), 1);
+    EXPECT_NEAR(spotShare(lights.points[1], {84, 0, -100}), 0.5, 1e-5);
+    EXPECT_EQ(spotShare(lights.points[1], {101, 0, -100}), 0);
+    EXPECT_EQ(spotShare(lights.points[1], {0, 0, 100}), 0);
     ASSERT_EQ(lights.suns.size(), 1u);
     EXPECT_EQ(lights.suns[0].direction, vec3(0, 0, 1));
 }

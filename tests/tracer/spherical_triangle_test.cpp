@@ -69,6 +69,11 @@ TEST(SphericalTriangle, HasItsSolidAngleAtEverySize) {
     EXPECT_LT(worstOfBound, 1);
 }
 
+TEST(SphericalTriangle, IsNothingFromItsOwnCornerOrEdge) {
+    EXPECT_EQ(look({0, 0, 0}, {10, 0, 0}, {0, 10, 0}).halfAngle, 0);
+    EXPECT_EQ(look({50, 0, 0}, {10, 0, 0}, {0, 10, 0}).halfAngle, 0) << "in its plane, outside";
+}
+
 TEST(SphericalTriangle, PointsLieInTheTriangle) {
     std::mt19937 generator(32);
     std::uniform_real_distribution<float> unit(0.0f, 0.9999999f);

@@ -63,7 +63,7 @@ TEST(SurfaceClass, FollowsSidesSkyFogAndOffset) {
 TEST(SurfaceClass, MasksSayWhoSees) {
     EXPECT_EQ(instanceMask(SurfaceClass::Solid, {}), kMaskSolid | kMaskSolidMirror | kMaskShadow);
     EXPECT_EQ(instanceMask(SurfaceClass::Layer, {}), kMaskLayer | kMaskLayerMirror) << "layers let light pass";
-    EXPECT_EQ(instanceMask(SurfaceClass::Sky, {}), kMaskSky);
+    EXPECT_EQ(instanceMask(SurfaceClass::Sky, {}), kMaskSky | kMaskShadow);
     Visibility weapon;
     weapon.near = true;
     weapon.mirrors = weapon.shadow = false;

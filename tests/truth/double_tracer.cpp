@@ -266,8 +266,7 @@ bool DoubleTracer::isOpen(const dvec3& from, const dvec3& way, double tMax) cons
     bool open = true;
     visitCandidates(from, way, tMax, [&](uint32_t triangle) {
         const SurfaceClass surfaceClass = m_triangles[triangle].surfaceClass;
-        if (surfaceClass == SurfaceClass::Layer || surfaceClass == SurfaceClass::Sky || m_triangles[triangle].turns)
-            return false;
+        if (surfaceClass == SurfaceClass::Layer || m_triangles[triangle].turns) return false;
         DoubleHit hit;
         if (!intersect(triangle, from, way, hit) || hit.t <= own || hit.t >= tMax - own) return false;
         if (surfaceClass == SurfaceClass::Tested && !isCovered(hit)) return false;
@@ -357,14 +356,11 @@ dvec3 DoubleTracer::sunLight(const DoubleHit& hit, std::mt19937& random) const {
 
 dvec3 DoubleTracer::skyLight(const DoubleHit& hit, std::mt19937& random) const {
     if (m_lights.skies.empty()) return dvec3(0);
-    // By material: every surface of a sky shines as the one that the light set names.
     const auto radiosityOf = [&](int surface, const dvec3& direction) {
         dvec3 radiosity(0);
         for (const SkyLight& sky : m_lights.skies)
-            if (m_world.surfaces[static_cast<size_t>(sky.surface)].material ==
-                    m_world.surfaces[static_cast<size_t>(surface)].material &&
-                (!sky.upperHemisphere || direction.z > 0))
-                radiosity = glm::max(radiosity, double(sky.radiosity) * dvec3(sky.color));
+            if (sky.surface == surface && (!sky.upperHemisphere || direction.z > 0))
+                radiosity += double(sky.radiosity) * dvec3(sky.color);
         return radiosity;
     };
     const auto [tangent, bitangent] = frameAround(hit.normal);
@@ -388,11 +384,11 @@ dvec3 DoubleTracer::pointLight(const DoubleHit& hit) const {
     for (const PointLight& light : m_lights.points) {
         const dvec3 way = dvec3(light.origin) - hit.position;
         const double distance = glm::length(way), cosine = glm::dot(way, hit.normal) / distance;
-        const bool inCone = !light.spot || -glm::dot(way, dvec3(light.direction)) >= double(light.cosOuter) * distance;
-        if (cosine <= 0 || !inCone || glm::dot(way, hit.geometricNormal) <= 0 || !isOpen(hit.position, way, 1))
+        const double share = light.spot ? double(spotShare(light, vec3(-way))) : 1;
+        if (cosine <= 0 || share <= 0 || glm::dot(way, hit.geometricNormal) <= 0 || !isOpen(hit.position, way, 1))
             continue;
         const double near = std::max(distance, kNearestQu);
-        sum += dvec3(light.intensity) * (cosine / (near * near));
+        sum += dvec3(light.intensity) * (share * cosine / (near * near));
     }
     return sum;
 }

@@ -23,32 +23,32 @@ Triangle makeTriangle(const vec3& a, const vec3& b, const vec3& c) {
     return {a, b - a, c - a, length > 0 ? vec3(cross / length) : vec3(0), static_cast<float>(length / 2)};
 }
 
-/// Of the plain formula: radiance x area x both cosines / distance^2, at the same point of the light.
-double exactIrradiance(const vec3& position, const vec3& normal, const Triangle& light, float radiance,
-                       const vec2& at) {
-    const dvec3 way =
-        dvec3(light.corner) + dvec3(light.edge1) * double(at.x) + dvec3(light.edge2) * double(at.y) - dvec3(position);
-    const double d2 = glm::dot(way, way);
-    const double receiver = glm::dot(dvec3(normal), way), emitter = -glm::dot(dvec3(light.normal), way);
-    return receiver > 0 && emitter > 0 ? double(radiance) * double(light.area) * (receiver / d2) * (emitter / d2) : 0;
+/// Solid angle of a light seen from the origin (van Oosterom and Strackee 1983), and what its roundings may do to it.
+struct SeenLight {
+    double solidAngle = 0;
+    double relativeError = 0;
+};
+
+SeenLight seeLight(const Triangle& light) {
+    const dvec3 a = light.corner, b = a + dvec3(light.edge1), c = a + dvec3(light.edge2);
+    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+    const dvec3 areas = glm::cross(dvec3(light.edge1), dvec3(light.edge2));
+    const double triple = glm::dot(areas, a); // positive on the side that shines, where corners go clockwise
+    const double denominator = la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
+    // Distance of the plane: 3 roundings in its sum of products, 1 in the normal, of |corner|; 4 of area and products.
+    const double tripleError = kUnitRoundoff * (4 * glm::length(areas) * la + 4 * std::abs(triple));
+    if (triple <= tripleError) return {}; // in the plane, as far as the numbers tell
+    // Four products of three lengths; in each 2 roundings of corners, 3 of lengths and their products, 3 of the scalar
+    // product; 3 sums.
+    const double denominatorError = kUnitRoundoff * 4 * (2 + 3 + 3 + 3) * la * lb * lc;
+    const double half = std::atan2(triple, denominator);
+    const double ofAngle = (tripleError * std::abs(denominator) + denominatorError * triple) /
+                           (triple * triple + denominator * denominator);
+    return {2 * half, ofAngle / half + 12 * kUnitRoundoff};
 }
 
 float uniform(std::mt19937& random, float low, float high) {
     return std::uniform_real_distribution<float>(low, high)(random);
-}
-
-/// Roundings that a sample's way has in each component, three additions of numbers no larger than the light and its
-/// distance, as a share of the way; seen under the cosine.
-double boundOf(const Triangle& light, const vec3& position, const vec2& at, const vec3& normal) {
-    const vec3 way = light.corner + light.edge1 * at.x + light.edge2 * at.y - position;
-    const double d = glm::length(dvec3(way));
-    const double size = glm::length(dvec3(light.corner)) + glm::length(dvec3(light.edge1)) +
-                        glm::length(dvec3(light.edge2)) + glm::length(dvec3(position));
-    const double cosines =
-        std::min(std::abs(glm::dot(dvec3(normal), dvec3(way))), std::abs(glm::dot(dvec3(light.normal), dvec3(way)))) /
-        d;
-    // 4 of the way in the distance, one in each cosine; 12 more in products and quotients.
-    return (6 * kUnitRoundoff * size / d) / cosines + 12 * kUnitRoundoff / cosines;
 }
 
 TEST(LightSamples, KeepTheirErrorFromFaintToStrongAndFromNearToFar) {
@@ -64,16 +64,19 @@ TEST(LightSamples, KeepTheirErrorFromFaintToStrongAndFromNearToFar) {
                     makeTriangle(base, base + vec3(uniform(random, 0.1f, 1), 0, uniform(random, -0.1f, 0.1f)) * size,
                                  base + vec3(0, uniform(random, 0.1f, 1), uniform(random, -0.1f, 0.1f)) * size);
                 const vec3 normal = glm::normalize(vec3(uniform(random, -1, 1), uniform(random, -1, 1), 1));
-                const vec2 at = shader::sampleTriangle(uniform(random, 0, 1), uniform(random, 0, 0.999f));
-                const auto got =
-                    shader::sampleTriangleLight(vec3(0), normal, light.corner, light.edge1, light.edge2, light.normal,
-                                                light.area, vec3(radiance), false, at.x, at.y);
+                const auto got = shader::sampleTriangleLight(vec3(0), normal, light.corner, light.edge1, light.edge2,
+                                                             light.normal, light.area, vec3(radiance), false,
+                                                             uniform(random, 0, 1), uniform(random, 0, 1));
                 if (!std::isfinite(got.irradiance.x)) ++notFinite;
-                const double exact = exactIrradiance(vec3(0), normal, light, radiance, at);
-                if (exact <= 0 || !(exact < 3e38)) continue;
+                const dvec3 way = glm::normalize(dvec3(got.direction));
+                const double cosine = glm::dot(dvec3(normal), way);
+                const SeenLight seen = seeLight(light);
+                if (cosine <= 8 * kUnitRoundoff || seen.solidAngle <= 0) continue;
                 ++cases;
-                worst = std::max(worst,
-                                 std::abs(double(got.irradiance.x) / exact - 1) / boundOf(light, vec3(0), at, normal));
+                const double exact = double(radiance) * seen.solidAngle * cosine;
+                // The cosine: 3 roundings of its sum of products, 3 of the way's length; products.
+                const double bound = seen.relativeError + 6 * kUnitRoundoff / cosine + 4 * kUnitRoundoff;
+                worst = std::max(worst, std::abs(double(got.irradiance.x) / exact - 1) / bound);
             }
     expectCount("light samples that are not finite, emission 1e-6 to 1e6, distance 1e-3 to 1e5", notFinite, cases);
     expectWithin("light sample's relative error, emission 1e-6 to 1e6, distance 1e-3 to 1e5", worst, 1, "of the bound");
@@ -85,15 +88,14 @@ TEST(LightSamples, GiveNothingInTheirPlane) {
     size_t wrong = 0, cases = 0;
     const Triangle light = makeTriangle(vec3(0), vec3(64, 0, 0), vec3(0, 64, 0));
     for (int i = 0; i < 20000; ++i) {
-        const vec2 at = shader::sampleTriangle(uniform(random, 0, 1), uniform(random, 0, 0.999f));
-        const vec2 other = shader::sampleTriangle(uniform(random, 0, 1), uniform(random, 0, 0.999f));
-        vec3 position = light.corner + light.edge1 * other.x + light.edge2 * other.y;
-        if (i % 4 == 1) position = light.corner + light.edge1 * at.x + light.edge2 * at.y; // the sampled point itself
-        if (i % 4 == 2) position = light.corner;
-        if (i % 4 == 3) position = vec3(uniform(random, -1e5f, 1e5f), uniform(random, -1e5f, 1e5f), 0);
+        const float along = uniform(random, 0, 1), across = uniform(random, 0, 1 - along);
+        vec3 position = light.corner + light.edge1 * along + light.edge2 * across;
+        if (i % 3 == 1) position = light.corner;
+        if (i % 3 == 2) position = vec3(uniform(random, -1e5f, 1e5f), uniform(random, -1e5f, 1e5f), 0);
         for (const vec3& normal : {vec3(0, 0, 1), vec3(0, 0, -1), vec3(0.6f, 0, 0.8f), vec3(1, 0, 0)}) {
-            const auto got = shader::sampleTriangleLight(position, normal, light.corner, light.edge1, light.edge2,
-                                                         light.normal, light.area, vec3(1e6f), true, at.x, at.y);
+            const auto got =
+                shader::sampleTriangleLight(position, normal, light.corner, light.edge1, light.edge2, light.normal,
+                                            light.area, vec3(1e6f), true, uniform(random, 0, 1), uniform(random, 0, 1));
             ++cases;
             if (got.irradiance != vec3(0)) ++wrong;
         }
@@ -144,7 +146,7 @@ TEST(LightChoices, GiveEveryLightItsShare) {
         std::mt19937 random(23);
         std::vector<double> weights;
         double exactSum = 0, runningError = 0;
-        shader::LightChoice choice = shader::emptyChoice();
+        shader::LightChoice choice = shader::beginChoice(0);
         size_t neverChosen = 0;
         for (size_t i = 0; i < count; ++i) {
             shader::LightSample sample;
@@ -152,9 +154,8 @@ TEST(LightChoices, GiveEveryLightItsShare) {
             sample.direction = vec3(static_cast<float>(i));
             exactSum += double(sample.irradiance.x);
             // Random number 0 must choose whatever gives light, however little.
-            const shader::LightChoice after = shader::considerLight(choice, sample, 0.0f);
-            if (after.direction.x != static_cast<float>(i)) ++neverChosen;
-            choice = shader::considerLight(choice, sample, 0.999999f);
+            choice = shader::considerLight(choice, sample);
+            if (choice.kept.direction.x != static_cast<float>(i)) ++neverChosen;
             runningError = std::max(runningError, std::abs(double(choice.weightSum) / exactSum - 1));
         }
         const std::string lights = std::to_string(count) + (count == 1 ? " light" : " lights");
@@ -174,11 +175,12 @@ TEST(LightChoices, FaintLightsAreTooBrightByNoMoreThanTheirNumbersStep) {
         strong.irradiance = vec3(1, 0, 0);
         faint.irradiance = vec3(share, 0, 0);
         strong.direction = faint.direction = vec3(1);
-        const shader::LightChoice first = shader::considerLight(shader::emptyChoice(), strong, 0.5f);
         uint32_t low = 0, high = 1u << 24; // the lowest number that does not choose it
         while (low < high) {
             const uint32_t middle = (low + high) / 2;
-            const auto chosen = shader::considerLight(first, faint, static_cast<float>(middle) * 0x1p-24f);
+            const auto first =
+                shader::considerLight(shader::beginChoice(static_cast<float>(middle) * 0x1p-24f), strong);
+            const auto chosen = shader::considerLight(first, faint);
             if (chosen.weight == share)
                 low = middle + 1;
             else

@@ -31,13 +31,16 @@ const DirectInputs* inputsOfRun;
 // In place of lib/random.glsl and of the tables and the tracer behind rt/scene.glsl.
 #define Q3RT_LIB_RANDOM_GLSL
 #define Q3RT_RT_SCENE_GLSL
+#define Q3RT_RT_SAMPLER_GLSL
+#define Q3RT_RT_SKY_RAY_GLSL
 float unitFloat(uint bits) { return float(bits >> 8) * 0x1p-24f; }
-uvec4 randomBits(uvec4, uint dimension) { return inputsOfRun->random(dimension); }
-Numbers4 randomNumbers(uvec4 key, uint dimension) {
-    const uvec4 bits = randomBits(key, dimension);
+Numbers4 unitFloats(uvec4 bits) {
     return Numbers4(glm::vec4(unitFloat(bits.x), unitFloat(bits.y), unitFloat(bits.z), unitFloat(bits.w)));
 }
+uvec4 sampleBits(uvec4, uint dimension) { return inputsOfRun->random(dimension); }
+Numbers4 sampleNumbers(uvec4 key, uint dimension) { return unitFloats(sampleBits(key, dimension)); }
 bool traceVisible(vec3 origin, vec3 direction, float, uint) { return inputsOfRun->visible(origin, direction); }
+bool reachesSky(vec3 origin, vec3 direction) { return inputsOfRun->sky(origin, direction); }
 uint pixelIndex(uvec2) { return 0; }
 
 struct NumberTable {
@@ -64,6 +67,7 @@ struct ColorTable {
 #define TriangleLightTable(address) TABLE(TriangleLightTable, address)
 #define LightRowTable(address) TABLE(LightRowTable, address)
 #define LightEntryTable(address) TABLE(LightEntryTable, address)
+#define LightColorTable(address) TABLE(LightColorTable, address)
 #define LightTable(address) TABLE(LightTable, address)
 #define NodeTable(address) TABLE(NodeTable, address)
 #define GridTable(address) TABLE(GridTable, address)
@@ -73,8 +77,8 @@ struct ColorTable {
 
 } // namespace
 
-const uint kFirstLightDimension = kDimensionLight;
-const float kLeastSkyShare = kLeastSkyChance;
+const uint kChoiceDimension = kDimensionChoice;
+const float kLeastSunShare = kLeastSunChance;
 
 RtLightRow rowOfPixel(DirectInputs& inputs, const RtPixel& pixel) {
     inputsOfRun = &inputs;
@@ -85,6 +89,13 @@ Drawn drawFromRow(DirectInputs& inputs, const RtLightRow& row, uint bits) {
     inputsOfRun = &inputs;
     const DrawnLight drawn = drawLight(row, bits);
     return {drawn.light, drawn.weight};
+}
+
+size_t keptCandidate(const std::vector<double>& weights, float random) {
+    LightChoice choice = beginChoice(random);
+    for (size_t i = 0; i < weights.size(); ++i)
+        choice = considerWeighted(choice, darkSample(vec3(float(i))), float(weights[i]));
+    return static_cast<size_t>(choice.kept.direction.x);
 }
 
 vec3 runDirectStage(DirectInputs& inputs, const RtPixel& pixel) {

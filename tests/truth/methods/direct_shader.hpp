@@ -3,6 +3,7 @@
 // random numbers and shadow rays given by the test.
 
 #include <functional>
+#include <vector>
 
 #include "math/vector.hpp"
 #include "shaders/shared/rt_scene.h"
@@ -13,12 +14,13 @@ struct DirectInputs {
     RtFrame frame{};                                                        ///< addresses are C++ pointers
     std::function<glm::uvec4(uint dimension)> random;                       ///< 32 bits each
     std::function<bool(const vec3& origin, const vec3& direction)> visible; ///< is (0, 1) of the way free?
+    std::function<bool(const vec3& origin, const vec3& direction)> sky;     ///< is what the way meets first a sky?
 };
 
-/// Number of a light's random dimension in the all-lights sum: this + its number.
-extern const uint kFirstLightDimension;
-/// Least weight of the sky's share in a choice.
-extern const float kLeastSkyShare;
+/// Dimension of the first choice's numbers: place on the light (x, y), which candidate (z), which of the row (w).
+extern const uint kChoiceDimension;
+/// Least weight of a sun's share in a choice.
+extern const float kLeastSunShare;
 
 /// Row of the light table whose lights the pixel tries.
 RtLightRow rowOfPixel(DirectInputs& inputs, const RtPixel& pixel);
@@ -29,6 +31,9 @@ struct Drawn {
     float weight;
 };
 Drawn drawFromRow(DirectInputs& inputs, const RtLightRow& row, uint bits);
+
+/// Which of the candidates with these weights is kept by a random number.
+size_t keptCandidate(const std::vector<double>& weights, float random);
 
 /// L of one pixel: irradiance / 63.75 luxel units, with the ambient term. One run at a time.
 vec3 runDirectStage(DirectInputs& inputs, const RtPixel& pixel);

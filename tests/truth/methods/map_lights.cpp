@@ -11,7 +11,8 @@ namespace {
 
 bool blocksLight(const Material& material) {
     const auto surfaceClass = classifySurface(material);
-    return surfaceClass == SurfaceClass::Solid || surfaceClass == SurfaceClass::SolidTwoSided;
+    return surfaceClass == SurfaceClass::Solid || surfaceClass == SurfaceClass::SolidTwoSided ||
+           surfaceClass == SurfaceClass::Sky;
 }
 
 } // namespace
@@ -21,7 +22,9 @@ MapLights::MapLights(FileSource& files, const std::string& map)
     , m_materials(files, m_textures, {})
     , m_world(q3rt::loadWorld(files, "maps/" + map + ".bsp", m_materials, {})) {
     const LightSet lights = extractLights(*m_world, m_materials);
-    m_tables = buildLightTables(*m_world, m_materials, lights, findSkyClusters(*m_world, m_materials));
+    LightAnimation animation(m_materials, m_textures);
+    m_tables = buildLightTables(*m_world, m_materials, lights, animation);
+    m_colors = animation.evaluate(0);
     const BspModel& model = m_world->bsp.models[0];
     std::vector<vec3> positions;
     for (int s = model.firstSurface; s < model.firstSurface + model.surfaceCount; ++s) {
@@ -29,6 +32,7 @@ MapLights::MapLights(FileSource& files, const std::string& map)
         if (!surface.drawn || !blocksLight(m_materials.drawn(surface.material))) continue;
         for (uint32_t i = 0; i + 2 < surface.indexCount; i += 3) {
             m_firstIndex.push_back(surface.firstIndex + i);
+            m_isSky.push_back(m_materials.drawn(surface.material).isSky);
             for (uint32_t k = 0; k < 3; ++k)
                 positions.push_back(m_world->vertices[m_world->indices[surface.firstIndex + i + k]].position);
         }
@@ -45,7 +49,8 @@ std::vector<RtPixel> MapLights::pickPoints(size_t count) const {
     double sum = 0;
     for (size_t t = 0; t < m_firstIndex.size(); ++t) {
         const dvec3 a(vertexOf(t, 0).position), b(vertexOf(t, 1).position), c(vertexOf(t, 2).position);
-        areaSum.push_back(sum += 0.5 * glm::length(glm::cross(b - a, c - a)));
+        if (!m_isSky[t]) sum += 0.5 * glm::length(glm::cross(b - a, c - a));
+        areaSum.push_back(sum);
     }
     std::mt19937 random(1);
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -71,10 +76,16 @@ bool MapLights::isVisible(const vec3& origin, const vec3& direction) const {
     return !m_tracer->occluded(origin, direction, 1.0f);
 }
 
+bool MapLights::reachesSky(const vec3& origin, const vec3& direction) const {
+    CpuHit hit;
+    return m_tracer->closest(origin, direction, 0.0f, 1.0f, hit) && m_isSky[hit.triangle];
+}
+
 RtFrame MapLights::describeFrame() const {
     const auto address = [](const auto& table) { return reinterpret_cast<uint64_t>(table.data()); };
     RtFrame frame{};
     frame.triangleLights = address(m_tables.triangles);
+    frame.lightColors = address(m_colors);
     frame.pointLights = address(m_tables.points);
     frame.lightRows = address(m_tables.rows.rows);
     frame.lightEntries = address(m_tables.rows.entries);
