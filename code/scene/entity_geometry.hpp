@@ -51,6 +51,7 @@ struct ViewGeometry {
     // Work space of the builder, kept from frame to frame so that a steady frame allocates nothing.
     std::vector<Vertex> batchVertices;
     std::vector<uint32_t> batchIndices;
+    std::vector<Affine> bones;                 ///< of the mesh that is being added
     std::vector<uint32_t> recordOfInlineModel; ///< by BSP submodel; 0 not in the view
 };
 

@@ -29,11 +29,13 @@ void addInlineModel(const ViewBuild& build, const SceneEntity& entity, int scene
 
 /// Appends a deformed copy; the bounds of its record grow to hold it.
 void appendDeformed(const ViewBuild& build, const Material& material, const DeformContext& context,
-                    const Md3Surface& mesh, EntitySurface& surface) {
+                    const AnimatedMesh& mesh, EntitySurface& surface) {
     ViewGeometry& out = build.out;
     out.batchVertices.clear();
-    appendModelVertices(mesh, surface.frame, surface.oldFrame, surface.backLerp, out.batchVertices);
-    out.batchIndices.assign(mesh.indices.begin(), mesh.indices.end());
+    const size_t source = surface.source->surface;
+    mesh.appendVertices(source, {surface.frame, surface.oldFrame, surface.backLerp}, out.bones, out.batchVertices);
+    const std::span<const uint32_t> indices = mesh.indices(source);
+    out.batchIndices.assign(indices.begin(), indices.end());
     deformVertices(material, context, out.batchVertices, out.batchIndices);
     EntityRecord& record = out.entities[surface.entity];
     for (const Vertex& vertex : out.batchVertices) {
@@ -45,24 +47,17 @@ void appendDeformed(const ViewBuild& build, const Material& material, const Defo
     }
 }
 
-struct Pose {
-    int frame = 0, oldFrame = 0;
-    float backLerp = 0;
-    int fog = 0;
-};
-
-void addMeshSurface(const ViewBuild& build, const SceneEntity& entity, const ModelLod& lod, const ModelSurface& source,
-                    uint32_t record, const Pose& pose) {
-    const Md3Surface& mesh = lod.md3.surfaces[source.surface];
+void addMeshSurface(const ViewBuild& build, const SceneEntity& entity, const AnimatedMesh& mesh,
+                    const ModelSurface& source, uint32_t record, const FramePair& frames, int fog) {
     const MaterialId material =
         surfaceMaterial(build.models, source, entity.customShader, entity.customSkin, entity.skinNumber);
     EntitySurface& surface = openSurface(build, material, record);
-    surface.fog = pose.fog;
+    surface.fog = fog;
     surface.source = &source;
-    surface.singleFrame = lod.md3.frames.size() == 1;
-    surface.frame = pose.frame;
-    surface.oldFrame = pose.oldFrame;
-    surface.backLerp = pose.backLerp;
+    surface.singleFrame = mesh.frameCount() == 1;
+    surface.frame = frames.frame;
+    surface.oldFrame = frames.oldFrame;
+    surface.backLerp = frames.backLerp;
     const Material& drawn = build.materials.drawn(material);
     surface.deformed = !drawn.deforms.empty();
     if (surface.deformed) {
@@ -73,8 +68,8 @@ void addMeshSurface(const ViewBuild& build, const SceneEntity& entity, const Mod
         context.heightAboveShadowPlane = entity.orientation.origin.z - entity.shadowPlane;
         appendDeformed(build, drawn, context, mesh, surface);
     } else {
-        appendModelVertices(mesh, pose.frame, pose.oldFrame, pose.backLerp, build.out.vertices);
-        for (const uint32_t index : mesh.indices) {
+        mesh.appendVertices(source.surface, frames, build.out.bones, build.out.vertices);
+        for (const uint32_t index : mesh.indices(source.surface)) {
             build.out.indices.push_back(surface.firstVertex + index);
         }
     }
@@ -82,29 +77,29 @@ void addMeshSurface(const ViewBuild& build, const SceneEntity& entity, const Mod
 }
 
 void addMesh(const ViewBuild& build, const SceneEntity& entity, int sceneIndex, const Model& model) {
-    const size_t frameCount = model.lods[0].md3.frames.size();
-    if (frameCount == 0) return;
-    Pose pose{entity.frame, entity.oldFrame, entity.backLerp, 0};
-    resolveFrames(frameCount, (entity.flags & entityFlag::kWrapFrames) != 0, pose.frame, pose.oldFrame);
-    if (pose.frame == pose.oldFrame) pose.backLerp = 0.0f;
-    const ModelLod& lod = model.lods[static_cast<size_t>(chooseLod(model, pose.frame, entity.orientation.origin,
-                                                                   build.eye, glm::radians(build.view.fovYDegrees),
-                                                                   build.settings.lodScale, build.settings.lodBias))];
+    const AnimatedMesh& finest = *model.lods[0].mesh;
+    FramePair frames{entity.frame, entity.oldFrame, entity.backLerp};
+    resolveFrames(finest.frameCount(), (entity.flags & entityFlag::kWrapFrames) != 0, frames.frame, frames.oldFrame);
+    if (frames.frame == frames.oldFrame) frames.backLerp = 0.0f;
+    const int level =
+        chooseLod(static_cast<int>(model.lods.size()), finest.frameBox(frames.frame).box, entity.orientation.origin,
+                  build.eye, glm::radians(build.view.fovYDegrees), build.settings.lodScale, build.settings.lodBias);
+    const ModelLod& lod = model.lods[static_cast<size_t>(level)];
     // Frames are valid for the finest level; a coarser file may have fewer.
-    const int last = static_cast<int>(lod.md3.frames.size()) - 1;
-    if (last < 0) return;
-    pose.frame = std::min(pose.frame, last);
-    pose.oldFrame = std::min(pose.oldFrame, last);
-    const Md3Frame& box = lod.md3.frames[static_cast<size_t>(pose.frame)];
-    pose.fog = fogOfSphere(build, entity.orientation.origin + box.localOrigin, box.radius); // unrotated by design
+    const int last = static_cast<int>(lod.mesh->frameCount()) - 1;
+    frames.frame = std::min(frames.frame, last);
+    frames.oldFrame = std::min(frames.oldFrame, last);
+    const FrameBox extent = lod.mesh->frameBox(frames.frame);
+    const int fog = fogOfSphere(build, entity.orientation.origin + extent.centre, extent.radius); // unrotated by design
     const uint32_t record = addRecord(build, entity, sceneIndex);
-    for (const int frame : {pose.frame, pose.oldFrame}) {
-        const Md3Frame& bounds = lod.md3.frames[static_cast<size_t>(frame)];
+    for (const int frame : {frames.frame, frames.oldFrame}) {
+        const Bounds box = lod.mesh->frameBox(frame).box;
         EntityRecord& of = build.out.entities[record];
-        addTransformedBox(of.worldFromModel, bounds.mins, bounds.maxs, of.worldBounds);
+        if (!box.empty()) addTransformedBox(of.worldFromModel, box.mins, box.maxs, of.worldBounds);
     }
+    lod.mesh->pose(frames, build.out.bones);
     for (const ModelSurface& source : lod.surfaces) {
-        addMeshSurface(build, entity, lod, source, record, pose);
+        addMeshSurface(build, entity, *lod.mesh, source, record, frames, fog);
     }
 }
 
@@ -119,7 +114,7 @@ void addModelEntity(const ViewBuild& build, const SceneEntity& entity, int scene
     case Model::Kind::Inline:
         addInlineModel(build, entity, sceneIndex, model.inlineModel);
         break;
-    case Model::Kind::Md3:
+    case Model::Kind::Mesh:
         addMesh(build, entity, sceneIndex, model);
         break;
     }

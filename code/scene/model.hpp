@@ -1,6 +1,7 @@
 #pragma once
 // Models and skins by handle, their tags, bounds and animated vertices.
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "formats/md3.hpp"
+#include "scene/animated_mesh.hpp"
 #include "scene/material.hpp"
 #include "scene/world.hpp"
 
@@ -17,16 +18,16 @@ namespace q3rt {
 struct ModelSurface {
     std::string name;
     std::vector<MaterialId> materials; ///< by skin number modulo; at least one
-    size_t surface = 0;                ///< in Md3::surfaces
+    size_t surface = 0;                ///< of the mesh
 };
 
 struct ModelLod {
-    Md3 md3;
+    std::unique_ptr<AnimatedMesh> mesh;
     std::vector<ModelSurface> surfaces;
 };
 
 struct Model {
-    enum class Kind { Bad, Inline, Md3 } kind = Kind::Bad;
+    enum class Kind { Bad, Inline, Mesh } kind = Kind::Bad;
     std::string name;
     int inlineModel = 0;        ///< BSP model number
     std::vector<ModelLod> lods; ///< [0] finest
@@ -69,11 +70,8 @@ MaterialId surfaceMaterial(const ModelLibrary& models, const ModelSurface& surfa
 /// Frame numbers as the original uses them (wrap flag; bad ones become 0).
 void resolveFrames(size_t frameCount, bool wrap, int& frame, int& oldFrame);
 
-/// Interpolated vertices of a surface in model space: position = old * backLerp + new * (1 - backLerp). Appends.
-void appendModelVertices(const Md3Surface& surface, int frame, int oldFrame, float backLerp, std::vector<Vertex>& out);
-
-/// Level of detail for an entity (spec of models 2.4); index in Model::lods.
-int chooseLod(const Model& model, int frame, const vec3& entityOrigin, const Orientation& view, float fovYRadians,
+/// Level of detail for an entity (spec of models 2.4), of `count`; 0 is the finest. `box`: of its frame.
+int chooseLod(int count, const Bounds& box, const vec3& entityOrigin, const Orientation& view, float fovYRadians,
               float lodScale, int lodBias);
 
 /// Lighting of an entity (spec of models 2.9).

@@ -6,8 +6,6 @@
 #include "base/log.hpp"
 #include "formats/skin.hpp"
 #include "scene/model.hpp"
-#include "scene/triangle_order.hpp"
-#include "scene/world_math.hpp"
 
 namespace q3rt {
 namespace {
@@ -28,37 +26,21 @@ std::string extensionOf(std::string_view name) {
     return toLower(name.substr(dot + 1));
 }
 
-/// Triangles in the leaf order of a tree over frame 0: software acceleration structures follow primitive order.
-void orderTriangles(Md3Surface& surface) {
-    std::vector<vec3> corners;
-    corners.reserve(surface.indices.size());
-    for (const uint32_t index : surface.indices) {
-        corners.push_back(surface.positions[index]);
-    }
-    std::vector<uint32_t> ordered;
-    ordered.reserve(surface.indices.size());
-    for (const uint32_t triangle : sahLeafOrder(corners)) {
-        const auto first = surface.indices.begin() + static_cast<std::ptrdiff_t>(triangle) * 3;
-        ordered.insert(ordered.end(), first, first + 3);
-    }
-    surface.indices = std::move(ordered);
-}
-
-ModelLod makeLod(Md3 md3, MaterialLibrary& materials) {
+ModelLod makeLod(std::unique_ptr<AnimatedMesh> mesh, MaterialLibrary& materials) {
     ModelLod lod;
-    for (size_t i = 0; i < md3.surfaces.size(); ++i) {
+    for (size_t i = 0; i < mesh->surfaceCount(); ++i) {
+        const MeshSurface from = mesh->surface(i);
         ModelSurface surface;
-        surface.name = md3.surfaces[i].name;
+        surface.name = from.name;
         surface.surface = i;
-        for (const std::string& shader : md3.surfaces[i].shaders) {
+        for (const std::string& shader : from.shaders) {
             const MaterialId id = materials.find(shader, lightmapContext::kNone);
             surface.materials.push_back(materials.get(id).isDefault ? 0 : id);
         }
         if (surface.materials.empty()) surface.materials.push_back(0);
-        orderTriangles(md3.surfaces[i]);
         lod.surfaces.push_back(std::move(surface));
     }
-    lod.md3 = std::move(md3);
+    lod.mesh = std::move(mesh);
     return lod;
 }
 
@@ -75,21 +57,38 @@ std::vector<ModelLod> loadMd3(FileSource& files, MaterialLibrary& materials, con
     for (auto file = names.rbegin(); file != names.rend(); ++file) { // coarsest first: shaders are made in this order
         const auto bytes = files.read(*file);
         if (!bytes) continue;
-        lods.insert(lods.begin(), makeLod(parseMd3(*bytes, *file), materials));
+        lods.insert(lods.begin(), makeLod(makeMd3Mesh(parseMd3(*bytes, *file)), materials));
     }
     return lods;
 }
 
-/// Tries one extension; true if `model` was filled. A kind that is not supported is reported by name.
+/// All levels of detail are in the one file.
+std::vector<ModelLod> loadMdr(FileSource& files, MaterialLibrary& materials, const std::string& name) {
+    std::vector<ModelLod> lods;
+    const auto bytes = files.read(name);
+    if (!bytes) return lods;
+    const auto model = std::make_shared<const Mdr>(parseMdr(*bytes, name));
+    for (size_t level = 0; level < model->lods.size(); ++level)
+        lods.push_back(makeLod(makeMdrMesh(model, level), materials));
+    return lods;
+}
+
+std::vector<ModelLod> loadIqm(FileSource& files, MaterialLibrary& materials, const std::string& name) {
+    std::vector<ModelLod> lods;
+    if (const auto bytes = files.read(name)) lods.push_back(makeLod(makeIqmMesh(parseIqm(*bytes, name)), materials));
+    return lods;
+}
+
+/// Tries one extension; true if `model` was filled.
 bool loadAs(FileSource& files, MaterialLibrary& materials, const std::string& file, std::string_view extension,
             Model& model) {
     try {
-        if (extension == "md3") {
+        if (extension == "md3")
             model.lods = loadMd3(files, materials, file);
-        } else if (files.read(file)) {
-            logLineOnce(LogLevel::Warning, "%s: models of this kind are not supported yet; convert it to MD3",
-                        file.c_str());
-        }
+        else if (extension == "mdr")
+            model.lods = loadMdr(files, materials, file);
+        else
+            model.lods = loadIqm(files, materials, file);
     } catch (const ContentError& error) {
         logLineOnce(LogLevel::Warning, "%s", error.what());
         model.lods.clear();
@@ -109,16 +108,6 @@ bool loadModelFile(FileSource& files, MaterialLibrary& materials, Model& model) 
         if (loadAs(files, materials, stem + "." + std::string(other), other, model)) return true;
     }
     return false;
-}
-
-const Md3Tag* findTag(const Md3& md3, int frame, std::string_view name) {
-    if (md3.frames.empty()) return nullptr;
-    const size_t row = static_cast<size_t>(std::clamp(frame, 0, static_cast<int>(md3.frames.size()) - 1));
-    for (size_t i = 0; i < md3.tagCount; ++i) {
-        const Md3Tag& tag = md3.tags[row * md3.tagCount + i];
-        if (tag.name == name) return &tag;
-    }
-    return nullptr;
 }
 
 } // namespace
@@ -142,7 +131,7 @@ int ModelLibrary::registerModel(std::string_view name) {
     model.name = key;
     int handle = 0;
     if (loadModelFile(m_files, m_materials, model)) {
-        model.kind = Model::Kind::Md3;
+        model.kind = Model::Kind::Mesh;
         handle = static_cast<int>(m_models.size());
         m_models.push_back(std::move(model));
     } else {
@@ -203,17 +192,7 @@ bool ModelLibrary::lerpTag(int handle, int startFrame, int endFrame, float fract
                            Orientation& out) const {
     out = Orientation{};
     const Model& model = get(handle);
-    if (model.kind != Model::Kind::Md3) return false;
-    const Md3Tag* start = findTag(model.lods[0].md3, startFrame, tag);
-    const Md3Tag* end = findTag(model.lods[0].md3, endFrame, tag);
-    if (!start || !end) return false;
-    const float startWeight = 1.0f - fraction;
-    out.origin = start->orientation.origin * startWeight + end->orientation.origin * fraction;
-    for (int i = 0; i < 3; ++i) {
-        const vec3 axis = start->orientation.axis[i] * startWeight + end->orientation.axis[i] * fraction;
-        out.axis[i] = normalizeOrZero(axis);
-    }
-    return true;
+    return model.kind == Model::Kind::Mesh && model.lods[0].mesh->lerpTag(tag, startFrame, endFrame, fraction, out);
 }
 
 Bounds ModelLibrary::modelBounds(int handle, const World* world) const {
@@ -222,9 +201,9 @@ Bounds ModelLibrary::modelBounds(int handle, const World* world) const {
     if (model.kind == Model::Kind::Inline && world && model.inlineModel < static_cast<int>(world->bsp.models.size())) {
         const BspModel& box = world->bsp.models[static_cast<size_t>(model.inlineModel)];
         bounds = {box.mins, box.maxs};
-    } else if (model.kind == Model::Kind::Md3 && !model.lods[0].md3.frames.empty()) {
-        const Md3Frame& frame = model.lods[0].md3.frames[0];
-        bounds = {frame.mins, frame.maxs};
+    } else if (model.kind == Model::Kind::Mesh) {
+        const Bounds box = model.lods[0].mesh->frameBox(0).box;
+        if (!box.empty()) bounds = box;
     }
     return bounds;
 }

@@ -15,6 +15,7 @@
 #include "formats/image.hpp"
 #include "formats/pk3.hpp"
 #include "formats/text_case.hpp"
+#include "support/bone_models.hpp"
 #include "support/game_data.hpp"
 #include "support/tiny_files.hpp"
 #include "trace/recording_writer.hpp"
@@ -57,6 +58,13 @@ class Corpus {
 void addTinyFiles(Corpus& corpus) {
     corpus.add("bsp", TinyBsp().build());
     corpus.add("md3", makeTinyMd3());
+    BarOptions bar;
+    corpus.add("mdr", makeBarMdr(bar));
+    corpus.add("iqm", makeBarIqm(bar));
+    bar.compressed = bar.colors = bar.floatWeights = true;
+    bar.lods = 2;
+    corpus.add("mdr", makeBarMdr(bar));
+    corpus.add("iqm", makeBarIqm(bar));
     corpus.add("font", makeFont());
     corpus.add("skin", toBytes("h_head,models/a.tga\ntag_weapon,\n\"l legs\" , \"b\" // c\n"));
     corpus.add("entities",

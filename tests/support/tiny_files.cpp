@@ -1,6 +1,11 @@
 #include "support/tiny_files.hpp"
 
 namespace q3rt::test {
+
+void ByteWriter::addBytes(const void* bytes, size_t count) {
+    const auto* first = static_cast<const std::byte*>(bytes);
+    m_bytes.insert(m_bytes.end(), first, first + count);
+}
 namespace {
 
 std::vector<std::byte> toBytes(const std::vector<uint8_t>& values) {

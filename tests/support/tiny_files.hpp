@@ -16,9 +16,7 @@ class ByteWriter {
   public:
     template <typename T>
     ByteWriter& put(T value) {
-        const size_t at = m_bytes.size();
-        m_bytes.resize(at + sizeof(T));
-        std::memcpy(m_bytes.data() + at, &value, sizeof(T));
+        addBytes(&value, sizeof(T));
         return *this;
     }
     ByteWriter& ints(std::initializer_list<int32_t> values) {
@@ -45,6 +43,7 @@ class ByteWriter {
     const std::vector<std::byte>& bytes() const { return m_bytes; }
 
   private:
+    void addBytes(const void* bytes, size_t count);
     std::vector<std::byte> m_bytes;
 };
 
