@@ -16,6 +16,8 @@ namespace {
 constexpr int kClockMs = 4321;
 constexpr float kFovDegrees = 90;
 constexpr float kEyeHeightQu = 26; // of a standing player, as spawn:N has it
+/// Of a recording's frames between those that are kept.
+constexpr size_t kDrawnEvery = 100;
 
 /// Anything a player might stand on: duel and team maps name their starts otherwise.
 std::vector<EyePoint> standingPlaces(const std::vector<MapEntity>& entities) {
@@ -57,7 +59,11 @@ void drawDemo(const PictureSource& source, HeadlessEngine& engine, Recording& re
     for (size_t i = 0; i < recording.frameCount() && next < names.size(); ++i) {
         const Recording::Frame frame = recording.readFrame(i);
         const bool wanted = frame.number == source.frames[next];
-        const auto result = replayer.play(frame, wanted ? Replayer::Draw::Capture : Replayer::Draw::Nothing);
+        // The original queues colours until a frame ends, and takes no command more when its queue is full.
+        const bool drawn = i % kDrawnEvery == 0;
+        const auto result = replayer.play(frame, wanted  ? Replayer::Draw::Capture
+                                                 : drawn ? Replayer::Draw::Frame
+                                                         : Replayer::Draw::Nothing);
         if (wanted && result.picture) writePng(folder / (names[next] + ".png"), *result.picture);
         if (wanted) ++next;
     }
