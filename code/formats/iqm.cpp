@@ -28,10 +28,11 @@ struct Header {
     uint32_t vertexCount = 0, channelCount = 0, boundsOffset = 0;
 };
 
-/// A quaternion of length 0 is no turn at all.
+/// A quaternion of length 0 is no turn at all. In double: squares of large floats are still numbers.
 vec4 normalizeQuaternion(const vec4& q) {
-    const float length = glm::length(q);
-    return length > 0 ? q / length : vec4(0, 0, 0, -1);
+    const glm::dvec4 wide(q);
+    const double length = glm::length(wide);
+    return length > 0 ? vec4(wide / length) : vec4(0, 0, 0, -1);
 }
 
 class IqmParser {
@@ -147,8 +148,11 @@ class IqmParser {
             pose.mask = reader.read<uint32_t>() & 0x3FFu;
             for (float& value : pose.offset)
                 value = finite(reader, "poses");
-            for (float& value : pose.scale)
-                value = finite(reader, "poses");
+            for (size_t k = 0; k < pose.scale.size(); ++k) {
+                constexpr float kLargestStored = 65535;
+                pose.scale[k] = finite(reader, "poses");
+                if (!std::isfinite(pose.offset[k] + kLargestStored * pose.scale[k])) fail("a pose is out of range");
+            }
             pose.firstChannel = channel;
             channel += static_cast<uint32_t>(std::popcount(pose.mask));
         }

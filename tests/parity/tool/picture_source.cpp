@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "formats/bsp.hpp"
 #include "formats/entities.hpp"
+#include "formats/pk3_file_source.hpp"
 #include "host/headless/replayer.hpp"
 #include "host/map_stage.hpp"
 
@@ -32,7 +33,7 @@ std::vector<EyePoint> standingPlaces(const std::vector<MapEntity>& entities) {
     return points;
 }
 
-void drawMap(const PictureSource& source, HeadlessEngine& engine, FileSource& files, const DrawSettings& settings,
+void drawMap(const PictureSource& source, HeadlessEngine& engine, Pk3FileSource& files, const DrawSettings& settings,
              const std::filesystem::path& folder) {
     MapStage stage(files, source.map);
     engine.clockMs = kClockMs;
