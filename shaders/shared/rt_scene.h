@@ -209,7 +209,6 @@ struct RtFrame {
     uint curve;       // kCurve*
     float curveWhite; // radiance that the curve shows as full white
     float inverseError; // of the back end's transform of rays into instances, see lib/offset.glsl
-    uint reserved;
 };
 
 struct RtPush {
