@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "base/parallel.hpp"
 #include "relight/light_columns.hpp"
@@ -14,7 +13,6 @@
 namespace q3rt {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 /// Shadow rays toward each kind at a receiver: at least, and more in proportion to its share of all light.
 constexpr int kLeastRays = 4;
 constexpr float kMoreRays = 28;

@@ -6,8 +6,6 @@
 namespace q3rt {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
-
 /// Point lights count no closer than this (how the maps were baked), qu.
 constexpr float kMinPointDistanceQu = 16;
 
