@@ -28,8 +28,8 @@ SHARED_CONST kBvhGroupShift = 24u;
 
 // Children's boxes on a grid of 256 cells an axis, lower bounds rounded down and upper ones up
 // (code/accel/bvh_node.cpp; after Ylitie, Karras and Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through
-// Compressed Wide BVHs"): a cache line holds four of them, and all that a visit reads is 40 bytes. An absent child is in
-// no group.
+// Compressed Wide BVHs"): a cache line holds four of them, and all that a visit reads is 40 bytes. An absent child is
+// in no group.
 struct BvhNode {
     vec3 origin;  // of the grid: the lowest corner
     uint scales;  // a byte an axis: exponent of the cell's size as in binary32; then the children's groups
