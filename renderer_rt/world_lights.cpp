@@ -64,16 +64,17 @@ std::vector<RtNode> makeNodes(const World& world) {
 
 std::vector<RtGridCell> makeGrid(const World& world) {
     std::vector<RtGridCell> cells;
-    const LightGrid& grid = world.grid;
-    const float luxelOfGridValue = std::exp2(static_cast<float>(-world.overbrightShift));
+    if (world.grid.empty()) return cells;
+    // As it was baked: a brightened one has lost what did not fit its bytes.
+    const LightGrid grid = LightGrid::build(world.bsp, world.grid.cellSize, 0);
     for (int z = 0; z < grid.counts.z; ++z)
         for (int y = 0; y < grid.counts.y; ++y)
             for (int x = 0; x < grid.counts.x; ++x) {
                 const vec3 point = grid.origin + grid.cellSize * vec3(x, y, z);
                 const GridLight light = grid.sample(point);
                 RtGridCell cell{};
-                cell.ambient = light.ambient * luxelOfGridValue;
-                cell.directed = light.directed * luxelOfGridValue;
+                cell.ambient = light.ambient;
+                cell.directed = light.directed;
                 cell.direction = light.direction;
                 cell.valid = light.ambient != vec3(0.0f) ? 1 : 0;
                 cells.push_back(cell);

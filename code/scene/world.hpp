@@ -86,7 +86,6 @@ struct World {
     std::vector<PatchGrid> patches;
     std::vector<FogVolume> fogs; ///< [0] unused: fog numbers start at 1
     LightGrid grid;
-    int overbrightShift = 0; ///< bits by which baked light has been brightened
     Bounds bounds;           ///< of all drawn vertices (the models lump is too small on oa_dm3)
     int entityTokenOffset = 0;
     /// Drawn surfaces that share a material, surface numbers ascending: a look at each material finds all its surfaces.

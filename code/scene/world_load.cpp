@@ -131,7 +131,6 @@ std::unique_ptr<World> loadWorld(FileSource& files, std::string_view name, Mater
     const TextureSettings& display = materials.textures().settings();
     const WorldBuild build{*world, materials, settings,
                            std::max(0, display.mapOverbrightBits - display.overbrightBits)};
-    world->overbrightShift = build.colorShift;
     materials.sunDirection = glm::normalize(kDefaultSunDirection);
     materials.sunLight = vec3(0.0f);
     loadLightmaps(build);
