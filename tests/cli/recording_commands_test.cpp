@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include "host/file_bytes.hpp"
 #include "support/game_data.hpp"
 #include "support/run_program.hpp"
 
@@ -105,6 +106,37 @@ TEST(RecordingCommands, AStretchOfTheDemoIsRecordedAndReplayed) {
     const ProgramResult subset = runQ3rt({"subset", "--trace", recording, "--out", (folder / "s.pk3").string()});
     EXPECT_EQ(subset.exitCode, 0) << subset.errors;
     EXPECT_GT(fs::file_size(folder / "s.pk3"), 1000000u);
+}
+
+/// Lights of kaos2 take their colours from images that nothing shows.
+TEST(RecordingCommands, AMapsSubsetDrawsTheSamePicture) {
+    if (!findGameFolder()) GTEST_SKIP() << kNoGameData;
+    const fs::path folder = makeScratchFolder("map_subset");
+    fs::create_directories(folder / "game/baseoa");
+    const auto draw = [&](const char* name, std::vector<std::string> more) {
+        std::vector<std::string> arguments = {"view",
+                                              "--map",
+                                              "kaos2",
+                                              "--at",
+                                              "spawn:0",
+                                              "--size",
+                                              "32x24",
+                                              "--frames",
+                                              "2",
+                                              "--set",
+                                              "rt_backend=compute",
+                                              "--out",
+                                              (folder / name).string()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runQ3rt(arguments);
+    };
+    const ProgramResult whole = draw("whole.png", {});
+    if (whole.errors.find("no Vulkan driver") != std::string::npos) GTEST_SKIP() << "no Vulkan device";
+    ASSERT_EQ(whole.exitCode, 0) << whole.errors;
+    ASSERT_EQ(runQ3rt({"subset", "--map", "kaos2", "--out", (folder / "game/baseoa/a.pk3").string()}).exitCode, 0);
+    const ProgramResult part = draw("part.png", {"--basepath", (folder / "game").string(), "--game", "baseoa"});
+    ASSERT_EQ(part.exitCode, 0) << part.errors;
+    EXPECT_EQ(readFileBytes(folder / "whole.png"), readFileBytes(folder / "part.png"));
 }
 
 TEST(RecordingCommands, AFullDiskEndsTheRecordingInOneLine) {

@@ -3,6 +3,7 @@
 
 #include "engine/export_table.hpp"
 #include "engine/front_end.hpp"
+#include "scene/lights.hpp"
 #include "trace/null_renderer/null_display.hpp"
 
 namespace q3rt {
@@ -10,10 +11,19 @@ namespace {
 
 class NullRenderer : public FrontEnd {
   public:
-    explicit NullRenderer(EngineServices& engine) : FrontEnd(engine), m_display(engine) {}
+    explicit NullRenderer(EngineServices& engine)
+        : FrontEnd(engine)
+        , m_display(engine) {}
 
   protected:
     DisplayInfo openDisplay() override { return m_size = m_display.open(); }
+    /// Reads what the ray tracer reads beyond what is drawn: light images, and the light that the map lost.
+    void onWorldLoaded() override {
+        extractLights(*world(), materials());
+        const std::string& map = world()->name; // maps/NAME.bsp
+        const size_t start = map.rfind('/') + 1;
+        engine().read("lights/" + map.substr(start, map.rfind('.') - start) + ".ent");
+    }
     void onFrame(const FrameCommands&, FrameImage* capture) override {
         if (!capture) return;
         *capture = {m_size.width, m_size.height, {}};
