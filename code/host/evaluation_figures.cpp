@@ -62,7 +62,7 @@ BarChart makeBars(const std::string& title, const std::string& where, const std:
 TradePoint makePoint(const EvaluationSetting& setting, const PictureSize& size, const CvarList& fixed) {
     TradePoint point{size, {fixed.begin(), fixed.end()}, setting.frames};
     for (const auto& [name, value] : {std::pair<const char*, int>{"rt_numRandomDL", setting.lights},
-                                      {"rt_cullLights", setting.cull},
+                                      {"rt_cullLights", setting.cull ? kCulled : 0},
                                       {"rt_denoiser", setting.denoiser},
                                       {"rt_taa", setting.taa}})
         point.cvars[name] = std::to_string(value);
@@ -103,7 +103,7 @@ std::string drawDenoiserTimes(const std::string& where, const std::vector<Pictur
 
 std::string drawCulling(const std::string& where, const std::vector<PictureSize>& sizes, const ResultOf& resultOf) {
     return drawBarChart(
-        makeBars("All lights, and all that the point's cluster may see", where,
+        makeBars("All lights, and all that may shine on the point", where,
                  "frame time in ms (median; bars: quartiles)", sizes, {kNotCulled, kAllLights},
                  [&](const EvaluationSetting& s, const PictureSize& size) { return resultOf(s, size).wallMs; }));
 }

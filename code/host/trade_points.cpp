@@ -11,6 +11,12 @@ namespace q3rt {
 namespace {
 
 constexpr const char *kSizeAxis = "size", *kFramesAxis = "frames";
+constexpr const char *kTaa = "rt_taa", *kJitter = "rt_antialiasing";
+
+bool jitterFollowsTaa(const TradePoint& point) {
+    const auto jitter = point.cvars.find(kJitter), taa = point.cvars.find(kTaa);
+    return jitter != point.cvars.end() && taa != point.cvars.end() && jitter->second == taa->second;
+}
 
 /// Values of the four standard settings.
 struct Choice {
@@ -52,9 +58,10 @@ void setFrames(int& frames, const std::string& text) {
 std::string wordsOf(const std::string& name, const std::string& value) {
     const bool on = value != "0";
     if (name == "rt_numrandomdl") return !on ? "all lights" : value == "1" ? "1 light" : value + " lights";
-    if (name == "rt_culllights") return on ? "culled" : "not culled";
+    if (name == "rt_culllights") return !on ? "not culled" : value == "1" ? "culled by the PVS" : "culled";
     if (name == "rt_denoiser" && (value == "0" || value == "1")) return on ? "denoiser" : "";
     if (name == "rt_taa" && (value == "0" || value == "1")) return on ? "TAA" : "";
+    if (name == "rt_antialiasing" && (value == "0" || value == "1")) return on ? "jitter" : "";
     if (name == "rt_backend") return value;
     return name + " " + value;
 }
@@ -85,10 +92,13 @@ std::vector<TradePoint> listStandardPoints(size_t count, const PictureSize& size
         if (points.size() == count) break;
         TradePoint point{size, {fixed.begin(), fixed.end()}};
         for (const auto& [name, value] : {std::pair<std::string, int>{"rt_numRandomDL", choice.lights},
-                                          {"rt_cullLights", choice.cull},
+                                          {"rt_cullLights", choice.cull ? kCulled : 0},
                                           {"rt_denoiser", choice.denoiser},
                                           {"rt_taa", choice.taa}})
             if (isDeclared(name) && !holds(fixed, name)) point.cvars[name] = std::to_string(value);
+        // TAA averages places within a pixel, if rays go there.
+        if (point.cvars.contains(kTaa) && isDeclared(kJitter) && !holds(fixed, kJitter))
+            point.cvars[kJitter] = point.cvars[kTaa];
         if (std::find(points.begin(), points.end(), point) == points.end()) points.push_back(std::move(point));
     }
     return points;
@@ -149,8 +159,11 @@ std::string describePoint(const TradePoint& point, std::span<const TradePoint> a
     constexpr const char* kFirst[] = {"rt_numRandomDL", "rt_cullLights", "rt_denoiser", "rt_taa"};
     for (const char* name : kFirst)
         if (const auto found = point.cvars.find(name); found != point.cvars.end()) appendIfSwept(name, found->second);
-    for (const auto& [name, value] : point.cvars)
-        if (std::find(std::begin(kFirst), std::end(kFirst), name) == std::end(kFirst)) appendIfSwept(name, value);
+    const bool jitterIsTaas = std::all_of(all.begin(), all.end(), jitterFollowsTaa);
+    for (const auto& [name, value] : point.cvars) {
+        const bool first = std::find(std::begin(kFirst), std::end(kFirst), name) != std::end(kFirst);
+        if (!first && !(jitterIsTaas && name == kJitter)) appendIfSwept(name, value);
+    }
     if (differs([&](const TradePoint& other) { return other.frames == point.frames; }))
         append(formatText("%d frame%s", point.frames, point.frames == 1 ? "" : "s"));
     const std::string size = formatText("%dx%d", point.size.width, point.size.height);

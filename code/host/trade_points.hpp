@@ -33,6 +33,8 @@ bool isPointAxis(const std::string& name);
 /// From CVAR=V1,V2,... Throws UsageError.
 TradeAxis parseAxis(const std::string& text);
 
+/// rt_cullLights: as narrow as the renderer has it.
+inline constexpr int kCulled = 2;
 inline constexpr size_t kSmokePointCount = 10, kStandardPointCount = 24;
 
 /// The first `count` different points of the standard sweep: lights per pixel, culling, denoiser and TAA, the telling

@@ -48,6 +48,18 @@ TEST(TradePoints, WhatTheRendererLacksOrIsFixedIsNotSwept) {
     }
 }
 
+/// TAA smooths edges only if rays go to changing places of a pixel.
+TEST(TradePoints, JitterFollowsTaa) {
+    const auto points = listStandardPoints(kStandardPointCount, kSize, {}, declaresAll);
+    for (const TradePoint& point : points) {
+        EXPECT_EQ(point.cvars.at("rt_antialiasing"), point.cvars.at("rt_taa"));
+        EXPECT_EQ(describePoint(point, points).find("jitter"), std::string::npos);
+    }
+    const std::vector<TradeAxis> apart = {parseAxis("rt_taa=0,1"), parseAxis("rt_antialiasing=0,1")};
+    const auto crossed = crossAxes(apart, kSize, {});
+    EXPECT_EQ(describePoint(crossed[3], crossed), "TAA, jitter");
+}
+
 TEST(TradePoints, AxesCrossEachOtherAndTheSize) {
     const std::vector<TradeAxis> axes = {parseAxis("rt_numRandomDL=1,4,0"), parseAxis("size=64x48,320x240")};
     const auto points = crossAxes(axes, kSize, {{"r_gamma", "1"}});
