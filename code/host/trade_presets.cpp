@@ -54,8 +54,10 @@ std::vector<TradeResult> findLevels(std::span<const TradeResult> results) {
     std::vector<TradeResult> candidates;
     for (const TradeResult& result : results) {
         const bool filtered = valueOf(result.point, "rt_denoiser") == "1" && valueOf(result.point, "rt_taa") == "1";
-        if (filtered && std::atoi(valueOf(result.point, "rt_cullLights").c_str()) == bestCulling)
-            candidates.push_back(result);
+        // All lights cost as much as there are in sight: no time to rely on.
+        const bool counted = valueOf(result.point, "rt_numRandomDL") != "0";
+        const bool culled = std::atoi(valueOf(result.point, "rt_cullLights").c_str()) == bestCulling;
+        if (filtered && counted && culled) candidates.push_back(result);
     }
     std::vector<TradeResult> levels;
     if (candidates.empty()) return levels;

@@ -24,7 +24,7 @@ TEST(Presets, AreFourInOrderAndNameSettings) {
     EXPECT_GT(presets()[3].ms, presets()[0].ms);
 }
 
-TEST(Presets, LevelsRiseAndLeaveBuffersAlone) {
+TEST(Presets, LevelsRiseAndLeaveTheFiltersAlone) {
     ASSERT_GE(paceLevels().size(), 2u);
     for (size_t i = 0; i < paceLevels().size(); ++i) {
         TraceSettings settings;
