@@ -170,4 +170,21 @@ void explainGrid(const World& world, const MaterialLibrary& materials, LightTabl
         thread.join();
 }
 
+void limitGrid(std::vector<RtGridCell>& grid, const vec3& mean) {
+    dvec3 sum(0);
+    size_t count = 0;
+    for (const RtGridCell& cell : grid) {
+        if (cell.valid == 0) continue;
+        sum += dvec3(cell.ambient) + 0.25 * dvec3(cell.directed); // the mean of max(0, cosine) over all directions
+        ++count;
+    }
+    vec3 scale(1.0f);
+    for (int c = 0; c < 3; ++c)
+        if (sum[c] > 0) scale[c] = std::min(1.0f, static_cast<float>(mean[c] * static_cast<double>(count) / sum[c]));
+    for (RtGridCell& cell : grid) {
+        cell.ambient *= scale;
+        cell.directed *= scale;
+    }
+}
+
 } // namespace q3rt

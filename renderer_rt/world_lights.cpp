@@ -184,6 +184,7 @@ WorldLights::WorldLights(Device& device, Uploader& uploader, const World& world,
     : m_animation(materials, textures) {
     LightTables tables = buildLightTables(world, materials, lights, m_animation);
     explainGrid(world, materials, tables);
+    if (lights.indirect) limitGrid(tables.grid, *lights.indirect);
     m_others = tables.others;
     for (size_t i = 0; i < lights.triangles.size(); ++i) {
         const TriangleLight& light = lights.triangles[i];

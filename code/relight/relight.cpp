@@ -88,15 +88,17 @@ RelightResult relight(const World& world, const MaterialLibrary& materials, cons
         RelightModel model(input, result.lights);
         runStage(model, stage, counts, [&](size_t found) { advance(done + kSearchSteps * found); });
         result.stages.push_back({model.pointCount(), model.cost(), model.score()});
-        const bool isLast = stage + 1 == counts.size();
         LostLights lights = model.lights();
-        lights.stage = isLast ? 0 : stage + 1;
-        lights.budget = isLast ? 0 : settings.budget;
+        lights.stage = stage + 1;
+        lights.budget = settings.budget;
         result.lights = throughText(lights);
-        if (progress.stage && !isLast) progress.stage(result.lights);
+        if (progress.stage) progress.stage(result.lights);
         advance(done += stepsOfStage(stage, counts));
     }
-    result.after = RelightModel(input, result.lights).scoreHeldOut(kScoredLuxels);
+    const RelightModel found(input, result.lights);
+    result.lights.indirect = found.meanIndirect();
+    result.lights.stage = result.lights.budget = 0;
+    result.after = found.scoreHeldOut(kScoredLuxels);
     advance(all);
     return result;
 }

@@ -27,7 +27,7 @@ struct RelightResult {
 /// Told of the work as it goes on. What a call throws ends the work.
 struct RelightProgress {
     std::function<void(size_t done, size_t all)> step;   ///< in steps of about the same time
-    std::function<void(const LostLights& lights)> stage; ///< the lights after each stage but the last
+    std::function<void(const LostLights& lights)> stage; ///< the lights after each stage
 };
 
 /// `begun`: lights of an earlier run with the same settings that was broken off; null: from the start.

@@ -24,6 +24,8 @@ class RelightModel {
     void settle();
 
     LostLights lights() const;
+    /// Bounces and light that is everywhere, mean over the area.
+    vec3 meanIndirect() const;
     size_t pointCount() const { return m_points->lights().size(); }
     double bounceScale() const { return m_bounceScale; }
     double cost() const { return m_fit.cost(); }
@@ -54,6 +56,7 @@ class RelightModel {
     void setBounced(std::vector<vec3> bounced, double scale);
     std::vector<vec3> bouncesOf(const std::vector<vec3>& irradiance) const;
     double bestBounceScale() const;
+
     std::vector<vec3> irradianceAt(const std::vector<LightReceiver>& receivers) const;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "scene/world.hpp"
@@ -68,8 +69,10 @@ struct LightSet {
     std::vector<SunLight> suns; ///< of drawn skies
     std::vector<SkyLight> skies;
     std::vector<PointLight> points; ///< surviving light entities
-    size_t emissiveSurfaces = 0;    ///< that gave triangles
-    size_t zeroAreaTriangles = 0;   ///< of emissive surfaces, left out: they give no light
+    /// Mean irradiance over the map of what all these do not give: bounces. None: not known.
+    std::optional<vec3> indirect;
+    size_t emissiveSurfaces = 0;  ///< that gave triangles
+    size_t zeroAreaTriangles = 0; ///< of emissive surfaces, left out: they give no light
 };
 
 /// The sky surfaces as triangle lights: each sky gives its light through its own surfaces, and only there.

@@ -152,6 +152,9 @@ class Reader {
             if (!(m_lights.compensate > 0)) fail("_compensate must be above 0");
         } else if (key == "_bounce") {
             m_lights.bounce = std::max(0.0f, given(1, 1)[0]);
+        } else if (key == "_indirect") {
+            const std::vector<float> v = given(3, 3);
+            m_lights.indirect = glm::max(vec3(v[0], v[1], v[2]), vec3(0));
         } else if (key == "_stage") {
             const std::vector<float> v = given(2, 2);
             m_lights.stage = static_cast<size_t>(std::max(0.0f, v[0]));
@@ -193,6 +196,8 @@ std::string formatLostLights(const LostLights& lights, std::string_view map) {
     text += pair("classname", "worldspawn") + "\n" + pair("_lightmap", lights.lightmap) + "\n";
     if (lights.compensate != 1) text += pair("_compensate", numbers({lights.compensate}, 4)) + "\n";
     if (lights.bounce > 0) text += pair("_bounce", numbers({lights.bounce}, 2)) + "\n";
+    if (lights.indirect)
+        text += pair("_indirect", numbers({lights.indirect->x, lights.indirect->y, lights.indirect->z}, 3)) + "\n";
     if (lights.stage > 0) text += pair("_stage", formatText("%zu %zu", lights.stage, lights.budget)) + "\n";
     if (lights.ambientValue > 0)
         text += pair("ambient", numbers({lights.ambientValue}, 3)) + " " + pair("_color", color(lights.ambientColor)) +
@@ -262,6 +267,7 @@ void applyLostLights(const LostLights& lost, const World& world, const MaterialL
     std::erase_if(lights.triangles, [](const TriangleLight& light) { return light.radiance == vec3(0); });
     std::erase_if(lights.skies, [](const SkyLight& sky) { return !(sky.radiosity > 0); });
     addLostSkies(world, materials, surfaceLights, scale, lights);
+    if (lost.indirect) lights.indirect = scale * *lost.indirect;
     lights.suns = lost.suns;
     lights.points = lost.points;
     for (SunLight& sun : lights.suns)

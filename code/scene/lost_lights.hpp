@@ -3,6 +3,7 @@
 // worldspawn, whose keys are those of the shader scripts, and light entities. What it says replaces what scripts and
 // the map's own lump say; what it leaves out stays.
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,11 +19,13 @@ struct LostLights {
         float value = 0;
         vec3 color{1}; ///< largest component 1
     };
-    std::string lightmap;   ///< of which bake it is, see lightmapFingerprint()
-    float compensate = 1;   ///< the bake was divided by this at the end (q3map2 -compensate)
-    float bounce = 0;       ///< of physics' diffuse bounces, what the bake had; the renderer has it from the light grid
-    size_t stage = 0;       ///< of work that was broken off: stages done; 0: finished
-    size_t budget = 0;      ///< of that work: lights that it may find
+    std::string lightmap; ///< of which bake it is, see lightmapFingerprint()
+    float compensate = 1; ///< the bake was divided by this at the end (q3map2 -compensate)
+    float bounce = 0;     ///< of physics' diffuse bounces, what the bake had; the renderer has it from the light grid
+    size_t stage = 0;     ///< of work that was broken off: stages done; 0: finished
+    size_t budget = 0;    ///< of that work: lights that it may find
+    /// Mean over the map's luxels of light that comes by bounces or is everywhere; none: not known.
+    std::optional<vec3> indirect;
     float ambientValue = 0; ///< the same everywhere; the renderer has it from the light grid
     vec3 ambientColor{1};
     std::vector<Strength> surfaceLights, skyLights;

@@ -17,6 +17,7 @@ LostLights someLights() {
     lights.lightmap = "0123456789abcdef";
     lights.compensate = 2.5f;
     lights.bounce = 0.5f;
+    lights.indirect = vec3(3, 2, 1);
     lights.ambientValue = 7;
     lights.ambientColor = {1, 0.5f, 0.25f};
     lights.surfaceLights.push_back({"textures/a/lamp", 400, {1, 0.8f, 0.6f}});
@@ -33,6 +34,7 @@ TEST(LostLights, TextIsReadBack) {
     EXPECT_EQ(read.lightmap, lights.lightmap);
     EXPECT_FLOAT_EQ(read.compensate, 2.5f);
     EXPECT_FLOAT_EQ(read.bounce, 0.5f);
+    EXPECT_EQ(read.indirect, vec3(3, 2, 1));
     EXPECT_FLOAT_EQ(read.ambientValue, 7);
     EXPECT_EQ(read.ambientColor, lights.ambientColor);
     EXPECT_EQ(read.stage, 0u);
@@ -126,6 +128,8 @@ TEST(LostLights, ReplaceWhatScriptsSay) {
     }
     EXPECT_GT(changed, 0u);
     EXPECT_LT(changed, lights.triangles.size());
+    ASSERT_TRUE(lights.indirect);
+    EXPECT_NEAR(lights.indirect->x, 3 / 2.5, 1e-5);
     ASSERT_EQ(lights.points.size(), 2u);
     EXPECT_NEAR(lights.points[0].intensity.x, 7500 * 300 / 2.5, 1);
     ASSERT_EQ(lights.suns.size(), 1u);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/log.hpp"
+#include "renderer_rt/grid_light.hpp"
 #include "renderer_rt/lost_light_file.hpp"
 #include "tests/truth/test_game.hpp"
 #include "trace_harness.hpp"
@@ -108,6 +109,24 @@ TEST(LostLightFile, SaysWhatIsWrong) {
     EXPECT_TRUE(readLostLights(game, *world));
     EXPECT_EQ(said, "");
     setLogSink({});
+}
+
+TEST(LimitGrid, OnlyDarkensDownToTheMean) {
+    std::vector<RtGridCell> grid(3);
+    for (size_t i = 0; i < 2; ++i) {
+        grid[i].valid = 1;
+        grid[i].ambient = vec3(10, 2, 0) * static_cast<float>(i + 1);
+        grid[i].directed = vec3(20, 4, 0);
+    }
+    grid[2].ambient = vec3(1000); // in a wall
+    std::vector<RtGridCell> limited = grid;
+    limitGrid(limited, vec3(5, 100, 1)); // the mean is (10 + 20) / 2 + 20 / 4 in red, a fifth of that in green
+    EXPECT_NEAR(limited[0].ambient.x, 10 * 5.0 / 20.0, 1e-5);
+    EXPECT_NEAR(limited[1].ambient.x, 20 * 5.0 / 20.0, 1e-5);
+    EXPECT_NEAR(limited[1].directed.x, 20 * 5.0 / 20.0, 1e-5);
+    EXPECT_EQ(limited[1].ambient.y, grid[1].ambient.y);
+    EXPECT_EQ(limited[0].directed.y, grid[0].directed.y);
+    EXPECT_EQ(limited[0].ambient.z, 0);
 }
 
 } // namespace
