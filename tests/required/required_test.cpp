@@ -55,6 +55,7 @@ Work measure(TradeSession& session, size_t viewCount, const char* onlyRequired, 
                    {{"rt_backend", "compute"},
                     {"rt_denoiser", "0"},
                     {"rt_taa", "0"},
+                    {"rt_lostLights", "0"}, // the census is of the map's own lights
                     {"rt_countWork", count ? "1" : "0"},
                     {"rt_onlyRequired", onlyRequired}}});
     Work work;
