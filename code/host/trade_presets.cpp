@@ -78,7 +78,8 @@ std::string formatPresets(std::span<const TradeResult> results, const std::strin
         throw UsageError("--presets: no point has rt_denoiser 1 and rt_taa 1; add --axis rt_denoiser=0,1 and "
                          "--axis rt_taa=0,1");
     const std::vector<size_t> front = findFront(costsOf(results));
-    const double fastest = results[front.front()].wallMs.median, slowest = results[front.back()].wallMs.median;
+    // Times within the fastest point's own spread are as fast.
+    const double fastest = results[front.front()].wallMs.q3, slowest = results[front.back()].wallMs.median;
     std::string text =
         "// Points of a measured front: PRESET(name, ms, SSIM, settings), and the levels that rt_targetMs "
         "moves along,\n// LEVEL(ms, SSIM, settings), each dearer and better than the one before. Made by "
@@ -87,7 +88,7 @@ std::string formatPresets(std::span<const TradeResult> results, const std::strin
     text += "// " + command + "\n";
     for (size_t i = 0; i < kPresetNames.size(); ++i) {
         const double share = static_cast<double>(i) / static_cast<double>(kPresetNames.size() - 1);
-        // The last one is the slowest itself, whatever rounding makes of it.
+        // The last one is the slowest itself, whatever rounding or a wide spread makes of it.
         const double ms = i + 1 == kPresetNames.size() ? slowest : fastest * std::pow(slowest / fastest, share);
         const TradeResult& result = results[findWithin(results, front, ms)];
         text += formatLine("PRESET", formatText("\"%s\", ", kPresetNames[i]), result, false);

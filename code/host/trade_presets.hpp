@@ -8,11 +8,12 @@
 
 namespace q3rt {
 
-/// `title` says what was measured on what, `command` by which command line. Presets are points of the front: its
-/// fastest, its most accurate, and the most accurate within the first and the second third of the logarithm of time
-/// between them. Levels are the front of the points with denoiser, TAA and the best culling, which differ in lights,
-/// depth and scale alone: a renderer can change these from frame to frame. Throws UsageError if the sweep has none of
-/// those, or points of several sizes.
+/// `title` says what was measured on what, `command` by which command line. Presets are points of the front: the most
+/// accurate that is as fast as its fastest (within that one's upper quartile), the most accurate of all, and the most
+/// accurate within the first and the second third of the logarithm of time between them. Levels are the front of the
+/// points with denoiser, TAA, the best culling and a number of lights, which differ in lights, depth and scale alone: a
+/// renderer can change these from frame to frame. Throws UsageError if the sweep has none of those, or points of
+/// several sizes.
 std::string formatPresets(std::span<const TradeResult> results, const std::string& title, const std::string& command);
 
 } // namespace q3rt
