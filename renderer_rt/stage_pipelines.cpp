@@ -12,7 +12,6 @@
 #include "spirv/trace_layers_rmiss.hpp"
 #include "spirv/trace_record_rchit.hpp"
 #include "spirv/trace_record_rmiss.hpp"
-#include "spirv/trace_visible_rmiss.hpp"
 
 namespace q3rt {
 
@@ -68,8 +67,7 @@ void StagePipelines::createTraceStage(Device& device, TraceStage stage, const Pi
     RayTracingPipelineInfo info;
     info.name = code.name;
     info.rayGeneration = {code.rayGeneration, {}};
-    info.misses = {
-        {shaders::trace_record_rmiss, {}}, {shaders::trace_visible_rmiss, {}}, {shaders::trace_layers_rmiss, {}}};
+    info.misses = {{shaders::trace_record_rmiss, {}}, {shaders::trace_layers_rmiss, {}}};
     info.hitGroups.resize(kHitGroupCount);
     info.hitGroups[kHitGroupRecord] = {.closestHit = {shaders::trace_record_rchit, {}},
                                        .anyHit = {shaders::trace_accept_rahit, {}},

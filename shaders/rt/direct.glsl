@@ -7,17 +7,18 @@
 #include "rt/grid.glsl"
 #include "rt/lights.glsl"
 #include "rt/sampler.glsl"
-#include "rt/sky_ray.glsl"
+#include "rt/sky_hit.glsl"
 
 const float kLeastSunChance = 0.0625;
 
-// Skies stop light as walls do.
+// Skies stop light as walls do, but for the light that comes from them.
 vec3 shadowed(ShadingPoint point, LightSample lit)
 {
     if (lightWeight(lit.irradiance) <= 0.0)
         return vec3(0.0);
-    bool open = lit.fromSky ? reachesSky(point.origin, lit.direction)
-                            : traceVisible(point.origin, lit.direction, 1.0, kMaskShadow);
+    // One search for both kinds: two would be waited for one after the other where neighbours differ.
+    Hit hit = traceSolid(point.origin, lit.direction, 1.0, kMaskShadow, lit.fromSky);
+    bool open = lit.fromSky ? isSky(hit) : hit.t == 0.0;
     return open ? lit.irradiance : vec3(0.0);
 }
 

@@ -29,8 +29,7 @@ SHARED_CONST kHitGroupRecord = 0u; // closest: fill the record; any: the shared 
 SHARED_CONST kHitGroupLayers = 1u; // any: collect
 SHARED_CONST kHitGroupCount = 2u;
 SHARED_CONST kMissRecord = 0u;
-SHARED_CONST kMissVisible = 1u;
-SHARED_CONST kMissLayers = 2u;
+SHARED_CONST kMissLayers = 1u;
 
 // One instance of the top-level structure; its number is the instance's custom index.
 struct RtInstance {

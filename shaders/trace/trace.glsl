@@ -9,10 +9,8 @@
 //     culled, and of the layers of layerMask behind `after` in drawing order those that are drawn first, as far as the
 //     solid. A mask of 0: none is looked for. A layer's key is nearer than its triangle: none is missed behind
 //     after.distance.
-//   Hit traceClosest(vec3 origin, vec3 direction, float tMax, uint mask)
-//     the first solid in (0, tMax), from either side
-//   bool traceVisible(vec3 origin, vec3 direction, float tMax, uint mask)
-//     nothing solid in (0, tMax), from either side
+//   Hit traceSolid(vec3 origin, vec3 direction, float tMax, uint mask, bool first)
+//     a solid in (0, tMax), from either side: the first one, or any, which takes less time
 // and asks the stage for
 //   bool acceptHit(uint instance, uint triangle, vec2 barycentric, float t, vec3 direction)
 //     of every non-opaque triangle, in any order and perhaps more than once: is there something at this point?

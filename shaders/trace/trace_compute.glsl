@@ -21,9 +21,8 @@ float loadBvhCoordinate(uvec2 triangles, uint index, uint corner, uint axis)
 }
 
 struct BvhQuery {
-    // Literals at every call: the code and data of other kinds fold away.
-    bool looks; // for the closest; otherwise for any
-    bool culls; // back faces
+    bool looks; // a literal at every call: the code and data of the other kind fold away
+    bool first; // the first solid, not any
     uint solidMask;
     uint layerMask;
     vec3 origin;
@@ -52,18 +51,18 @@ float onBvhTriangle(inout BvhQuery query, uint item, uvec2 triangles, uint index
             insertLayer(query.sight.layers, Layer(LayerKey(distance, instance, number), test.t, test.barycentric));
         return tMax;
     }
-    if (query.culls && (flags & kBvhTriangleCullBack) != 0u && !test.frontFace)
+    if (query.looks && (flags & kBvhTriangleCullBack) != 0u && !test.frontFace)
         return tMax;
     // The search goes on a little behind the solid where layers are looked for.
-    if (query.looks && query.sight.solid.t > 0.0 && test.t >= query.sight.solid.t)
+    if (query.sight.solid.t > 0.0 && test.t >= query.sight.solid.t)
         return tMax;
     if ((flags & kBvhTriangleOpaque) == 0u &&
         !acceptHit(instance, number, test.barycentric, test.t, query.direction))
         return tMax;
     query.sight.solid = Hit(test.t, instance, number, test.barycentric);
-    if (!query.looks)
+    if (!query.first)
         return kBvhFound;
-    return query.layerMask != 0u ? min(tMax, layerReach(test.t, query.origin)) : test.t;
+    return query.looks && query.layerMask != 0u ? min(tMax, layerReach(test.t, query.origin)) : test.t;
 }
 
 #include "trace/bvh_traverse.glsl"
@@ -83,20 +82,12 @@ Sight traceSight(vec3 origin, vec3 direction, float tMin, float tMax, uint solid
     return query.sight;
 }
 
-Hit traceClosest(vec3 origin, vec3 direction, float tMax, uint mask)
+Hit traceSolid(vec3 origin, vec3 direction, float tMax, uint mask, bool first)
 {
     BvhQuery query =
-        BvhQuery(true, false, mask, 0u, origin, direction, Sight(noHit(), emptyBatch(LayerKey(0.0, 0u, 0u))));
+        BvhQuery(false, first, mask, 0u, origin, direction, Sight(noHit(), emptyBatch(LayerKey(0.0, 0u, 0u))));
     traverseBvh(rtFrame.treeNodes, origin, direction, 0.0, tMax, mask, groupsOf(mask), query);
     return query.sight.solid;
-}
-
-bool traceVisible(vec3 origin, vec3 direction, float tMax, uint mask)
-{
-    BvhQuery query =
-        BvhQuery(false, false, mask, 0u, origin, direction, Sight(noHit(), emptyBatch(LayerKey(0.0, 0u, 0u))));
-    traverseBvh(rtFrame.treeNodes, origin, direction, 0.0, tMax, mask, groupsOf(mask), query);
-    return query.sight.solid.t == 0.0;
 }
 
 #endif

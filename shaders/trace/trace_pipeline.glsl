@@ -6,8 +6,7 @@
 
 layout(set = 1, binding = 0) uniform accelerationStructureEXT sceneStructure;
 layout(location = 0) rayPayloadEXT Hit recordPayload;
-layout(location = 1) rayPayloadEXT uint visiblePayload;
-layout(location = 2) rayPayloadEXT LayerBatch layersPayload;
+layout(location = 1) rayPayloadEXT LayerBatch layersPayload;
 
 Sight traceSight(vec3 origin, vec3 direction, float tMin, float tMax, uint solidMask, uint layerMask, LayerKey after)
 {
@@ -19,24 +18,16 @@ Sight traceSight(vec3 origin, vec3 direction, float tMin, float tMax, uint solid
     if (layerMask != 0u)
         traceRayEXT(sceneStructure, gl_RayFlagsNoOpaqueEXT | gl_RayFlagsSkipClosestHitShaderEXT, layerMask,
                     kHitGroupLayers, 0u, kMissLayers, origin, tMin, direction,
-                    layerReach(recordPayload.t > 0.0 ? recordPayload.t : tMax, origin), 2);
+                    layerReach(recordPayload.t > 0.0 ? recordPayload.t : tMax, origin), 1);
     return Sight(recordPayload, layersPayload);
 }
 
-Hit traceClosest(vec3 origin, vec3 direction, float tMax, uint mask)
+Hit traceSolid(vec3 origin, vec3 direction, float tMax, uint mask, bool first)
 {
     recordPayload = noHit();
-    traceRayEXT(sceneStructure, gl_RayFlagsNoneEXT, mask, kHitGroupRecord, 0u, kMissRecord, origin, 0.0, direction,
-                tMax, 0);
+    traceRayEXT(sceneStructure, first ? gl_RayFlagsNoneEXT : gl_RayFlagsTerminateOnFirstHitEXT, mask, kHitGroupRecord,
+                0u, kMissRecord, origin, 0.0, direction, tMax, 0);
     return recordPayload;
-}
-
-bool traceVisible(vec3 origin, vec3 direction, float tMax, uint mask)
-{
-    visiblePayload = 0u;
-    traceRayEXT(sceneStructure, gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, mask,
-                kHitGroupRecord, 0u, kMissVisible, origin, 0.0, direction, tMax, 1);
-    return visiblePayload != 0u;
 }
 
 #endif

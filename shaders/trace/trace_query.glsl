@@ -18,7 +18,7 @@ void settleQuery(rayQueryEXT query, vec3 direction)
     }
 }
 
-Hit closestSolid(uint rayFlags, vec3 origin, vec3 direction, float tMin, float tMax, uint mask)
+Hit findSolid(uint rayFlags, vec3 origin, vec3 direction, float tMin, float tMax, uint mask)
 {
     rayQueryEXT query;
     rayQueryInitializeEXT(query, sceneStructure, rayFlags, mask, origin, tMin, direction, tMax);
@@ -51,24 +51,17 @@ Sight traceSight(vec3 origin, vec3 direction, float tMin, float tMax, uint solid
 {
     Sight sight = Sight(noHit(), emptyBatch(after));
     if (solidMask != 0u)
-        sight.solid = closestSolid(gl_RayFlagsCullBackFacingTrianglesEXT, origin, direction, tMin, tMax, solidMask);
+        sight.solid = findSolid(gl_RayFlagsCullBackFacingTrianglesEXT, origin, direction, tMin, tMax, solidMask);
     if (layerMask != 0u)
         sight.layers = firstLayers(origin, direction, tMin,
                                    layerReach(sight.solid.t > 0.0 ? sight.solid.t : tMax, origin), layerMask, after);
     return sight;
 }
 
-Hit traceClosest(vec3 origin, vec3 direction, float tMax, uint mask)
+Hit traceSolid(vec3 origin, vec3 direction, float tMax, uint mask, bool first)
 {
-    return closestSolid(gl_RayFlagsNoneEXT, origin, direction, 0.0, tMax, mask);
-}
-
-bool traceVisible(vec3 origin, vec3 direction, float tMax, uint mask)
-{
-    rayQueryEXT query;
-    rayQueryInitializeEXT(query, sceneStructure, gl_RayFlagsTerminateOnFirstHitEXT, mask, origin, 0.0, direction, tMax);
-    settleQuery(query, direction);
-    return rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT;
+    return findSolid(first ? gl_RayFlagsNoneEXT : gl_RayFlagsTerminateOnFirstHitEXT, origin, direction, 0.0, tMax,
+                        mask);
 }
 
 #endif

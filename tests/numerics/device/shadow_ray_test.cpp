@@ -20,7 +20,6 @@
 #include "spirv/shadow_rays_query.hpp"
 #include "spirv/trace_record_rchit.hpp"
 #include "spirv/trace_record_rmiss.hpp"
-#include "spirv/trace_visible_rmiss.hpp"
 #include "support/game_data.hpp"
 
 namespace q3rt::test {
@@ -152,7 +151,7 @@ class DeviceShadowRays : public GpuTest {
         const RayTracingPipeline pipeline(device(),
                                           {.name = "shadow rays",
                                            .rayGeneration = {shaders::shaders_shadow_rays_rgen},
-                                           .misses = {{shaders::trace_record_rmiss}, {shaders::trace_visible_rmiss}},
+                                           .misses = {{shaders::trace_record_rmiss}},
                                            .hitGroups = {{.closestHit = {shaders::trace_record_rchit}}},
                                            .interface = interface});
         device().submitAndWait([&](VkCommandBuffer commands) {

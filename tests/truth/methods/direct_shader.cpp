@@ -32,15 +32,22 @@ const DirectInputs* inputsOfRun;
 #define Q3RT_LIB_RANDOM_GLSL
 #define Q3RT_RT_SCENE_GLSL
 #define Q3RT_RT_SAMPLER_GLSL
-#define Q3RT_RT_SKY_RAY_GLSL
+#define Q3RT_RT_SKY_HIT_GLSL
 float unitFloat(uint bits) { return float(bits >> 8) * 0x1p-24f; }
 Numbers4 unitFloats(uvec4 bits) {
     return Numbers4(glm::vec4(unitFloat(bits.x), unitFloat(bits.y), unitFloat(bits.z), unitFloat(bits.w)));
 }
 uvec4 sampleBits(uvec4, uint dimension) { return inputsOfRun->random(dimension); }
 Numbers4 sampleNumbers(uvec4 key, uint dimension) { return unitFloats(sampleBits(key, dimension)); }
-bool traceVisible(vec3 origin, vec3 direction, float, uint) { return inputsOfRun->visible(origin, direction); }
-bool reachesSky(vec3 origin, vec3 direction) { return inputsOfRun->sky(origin, direction); }
+struct Hit {
+    float t;
+    bool sky;
+};
+Hit traceSolid(vec3 origin, vec3 direction, float, uint, bool first) {
+    if (first) return {1, inputsOfRun->sky(origin, direction)};
+    return {inputsOfRun->visible(origin, direction) ? 0.0f : 1.0f, false};
+}
+bool isSky(Hit hit) { return hit.sky; }
 uint pixelIndex(uvec2) { return 0; }
 
 struct NumberTable {

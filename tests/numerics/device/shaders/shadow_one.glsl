@@ -9,5 +9,5 @@ void shadowRay(uint i)
         point = transformHitPoint(push.worldFromModel[0], push.worldFromModel[1], push.worldFromModel[2], point,
                                   push.inverseError);
     vec3 origin = offsetOrigin(point.position, point.error, ray.normal);
-    ResultTable(push.results).at[i] = traceVisible(origin, ray.light - origin, 1.0, 0xffu) ? 1u : 0u;
+    ResultTable(push.results).at[i] = traceSolid(origin, ray.light - origin, 1.0, 0xffu, false).t == 0.0 ? 1u : 0u;
 }
