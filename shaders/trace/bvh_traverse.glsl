@@ -23,8 +23,11 @@ struct BvhRay {
 
 BvhRay makeBvhRay(vec3 origin, vec3 direction)
 {
-    vec3 reciprocal = slabReciprocal(direction);
-    return BvhRay(origin, reciprocal, makeTriangleRay(origin, direction, reciprocal));
+    BvhRay ray;
+    ray.origin = origin;
+    ray.reciprocal = slabReciprocal(direction);
+    ray.triangleRay = makeTriangleRay(origin, direction, ray.reciprocal);
+    return ray;
 }
 
 // The ray in the model space of an instance; the direction keeps its scale, so that t means the same in both spaces.
