@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
+#include "tests/truth/square_room.hpp"
 #include "tests/truth/test_game.hpp"
 #include "trace_harness.hpp"
 
@@ -12,41 +13,14 @@ namespace q3rt {
 namespace {
 
 using test::Camera;
+using test::RoomPoint;
 using test::TestGame;
 using test::TraceHarness;
 
 constexpr int kWidth = 48, kHeight = 36, kTile = 6; ///< pixels
 const Camera kCamera{.eye = {-200, -180, 100}, .pitch = 10, .yaw = 40};
 
-struct RoomPoint {
-    dvec3 position{0}, normal{0};
-    bool onLight = false;
-};
-
-/// Where the ray through a point of the picture (pixels) leaves the room.
-RoomPoint findRoomPoint(double x, double y) {
-    const double yaw = kCamera.yaw * M_PI / 180, pitch = kCamera.pitch * M_PI / 180;
-    const dvec3 forward(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), -std::sin(pitch));
-    const dvec3 left(-std::sin(yaw), std::cos(yaw), 0);
-    const dvec3 up(std::sin(pitch) * std::cos(yaw), std::sin(pitch) * std::sin(yaw), std::cos(pitch));
-    const double tanX = std::tan(kCamera.fovX * M_PI / 360), tanY = tanX * kHeight / kWidth;
-    const dvec3 direction = forward + left * (tanX * (1 - 2 * x / kWidth)) + up * (tanY * (1 - 2 * y / kHeight));
-    const dvec3 eye(kCamera.eye), mins(-256, -256, 0), maxs(256, 256, 256);
-    RoomPoint result;
-    double nearest = 1e30;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (direction[axis] == 0) continue;
-        const bool high = direction[axis] > 0;
-        const double t = ((high ? maxs[axis] : mins[axis]) - eye[axis]) / direction[axis];
-        if (t >= nearest) continue;
-        nearest = t;
-        result.position = eye + direction * t;
-        result.normal = dvec3(0);
-        result.normal[axis] = high ? -1 : 1;
-    }
-    result.onLight = result.normal.z < 0 && std::abs(result.position.x) <= 64 && std::abs(result.position.y) <= 64;
-    return result;
-}
+RoomPoint pointBehind(double x, double y) { return test::findRoomPoint(kCamera, kWidth, kHeight, x, y); }
 
 class RoomTest : public testing::Test {
   protected:
@@ -78,14 +52,14 @@ Comparison compareWithClosedForm(const FloatImage& image) {
         for (int tx = 0; tx < kWidth; tx += kTile) {
             double got = 0, expected = 0;
             bool usable = true;
-            const dvec3 normal = findRoomPoint(tx - 1, ty - 1).normal;
+            const dvec3 normal = pointBehind(tx - 1, ty - 1).normal;
             for (const auto& [dx, dy] : {std::pair{-2, -2}, {kTile + 2, -2}, {-2, kTile + 2}, {kTile + 2, kTile + 2}}) {
-                const RoomPoint corner = findRoomPoint(tx + dx, ty + dy);
+                const RoomPoint corner = pointBehind(tx + dx, ty + dy);
                 usable = usable && corner.normal == normal && !corner.onLight;
             }
             for (int y = ty; y < ty + kTile && usable; ++y)
                 for (int x = tx; x < tx + kTile; ++x) {
-                    const RoomPoint point = findRoomPoint(x + 0.5, y + 0.5);
+                    const RoomPoint point = pointBehind(x + 0.5, y + 0.5);
                     usable = usable && !point.onLight && point.normal == normal;
                     expected +=
                         kTestWallAlbedo * squareLightRoom::computeIrradiance(point.position, point.normal) / 63.75;

@@ -17,7 +17,7 @@ double largestDifference(const FloatImage& first, const FloatImage& second, doub
     double worst = 0;
     for (int y = 0; y < kRoomHeight; ++y)
         for (int x = 0; x < kRoomWidth; ++x) {
-            if (!isInsideOneWall(kRoomCamera, x, y)) continue;
+            if (!isInsideOneWall(kRoomCamera, kRoomWidth, kRoomHeight, x, y)) continue;
             const auto p = static_cast<size_t>(3 * (y * kRoomWidth + x));
             const double a = double(first.rgb[p]) * scale, b = second.rgb[p];
             if (a <= 0 && b <= 0) continue;
@@ -108,7 +108,9 @@ TEST(Rooms, WhiteFurnaceConvergesToTheClosedForm) {
     size_t pixels = 0;
     for (int y = 0; y < kRoomHeight; ++y)
         for (int x = 0; x < kRoomWidth; ++x) {
-            if (!isInsideOneWall(camera, x, y) || findRoomPoint(camera, x + 0.5, y + 0.5).normal.z != 1) continue;
+            if (!isInsideOneWall(camera, kRoomWidth, kRoomHeight, x, y) ||
+                findRoomPoint(camera, kRoomWidth, kRoomHeight, x + 0.5, y + 0.5).normal.z != 1)
+                continue;
             const auto p = static_cast<size_t>(y * kRoomWidth + x);
             const double error = std::sqrt(picture.variance[p].r);
             worst = std::max(worst, std::abs(picture.mean[p].r - expected) - 4 * error);
@@ -152,8 +154,8 @@ TEST(Rooms, TwentyThousandLightsAreTheOneTheyMakeUp) {
     double sum = 0, expectedSum = 0, variance = 0;
     for (int y = 0; y < kRoomHeight; ++y)
         for (int x = 0; x < kRoomWidth; ++x) {
-            if (!isInsideOneWall(kRoomCamera, x, y)) continue;
-            const RoomPoint point = findRoomPoint(kRoomCamera, x + 0.5, y + 0.5);
+            if (!isInsideOneWall(kRoomCamera, kRoomWidth, kRoomHeight, x, y)) continue;
+            const RoomPoint point = findRoomPoint(kRoomCamera, kRoomWidth, kRoomHeight, x + 0.5, y + 0.5);
             const auto p = static_cast<size_t>(y * kRoomWidth + x);
             sum += picture.mean[p].r, variance += picture.variance[p].r;
             expectedSum += kTestWallAlbedo * squareLightRoom::computeIrradiance(point.position, point.normal) / 63.75;

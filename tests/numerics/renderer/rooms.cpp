@@ -91,36 +91,6 @@ void addMap(TestGame& game, const std::string& name, const Bsp& map) {
 
 void addMap(TestGame& game, const std::string& name, const BoxMap& map) { addMap(game, name, buildBoxMap(map)); }
 
-RoomPoint findRoomPoint(const Camera& camera, double x, double y) {
-    const dvec3 direction = rayDirection(camera, kRoomWidth, kRoomHeight, x, y), eye(camera.eye);
-    RoomPoint result;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (int axis = 0; axis < 3; ++axis) {
-        if (direction[axis] == 0) continue;
-        const bool high = direction[axis] > 0;
-        const double wall = (high ? squareLightRoom::kRoom.maxs : squareLightRoom::kRoom.mins)[axis];
-        const double t = (wall - eye[axis]) / direction[axis];
-        if (t >= nearest) continue;
-        nearest = t;
-        result.position = eye + direction * t;
-        result.normal = dvec3(0);
-        result.normal[axis] = high ? -1 : 1;
-    }
-    result.onLight = result.normal.z < 0 && std::abs(result.position.x) <= squareLightRoom::kLight.maxs.x &&
-                     std::abs(result.position.y) <= squareLightRoom::kLight.maxs.y;
-    return result;
-}
-
-bool isInsideOneWall(const Camera& camera, int x, int y) {
-    const dvec3 normal = findRoomPoint(camera, x + 0.5, y + 0.5).normal;
-    for (int dy = -2; dy <= 2; ++dy)
-        for (int dx = -2; dx <= 2; ++dx) {
-            const RoomPoint point = findRoomPoint(camera, x + 0.5 + dx, y + 0.5 + dy);
-            if (point.normal != normal || point.onLight) return false;
-        }
-    return true;
-}
-
 RoomRenderer::RoomRenderer(FileSource& files, const char* backend,
                            const std::vector<std::pair<std::string, std::string>>& settings)
     : m_harness(files, Q3RT_BUILD_DIR "/renderer_rt_x86_64.so", kRoomWidth, kRoomHeight) {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "truth/picture_statistics.hpp"
+#include "truth/square_room.hpp"
 #include "truth/test_game.hpp"
 
 namespace q3rt::test {
@@ -27,15 +27,6 @@ BoxMap roomBesideLights();
 void addLightShader(TestGame& game, const std::string& name, float surfaceLight);
 void addMap(TestGame& game, const std::string& name, const BoxMap& map);
 void addMap(TestGame& game, const std::string& name, const Bsp& map);
-
-/// Where the ray through a point of the picture (pixels) of `camera` leaves the room with one light.
-struct RoomPoint {
-    dvec3 position{0}, normal{0};
-    bool onLight = false;
-};
-RoomPoint findRoomPoint(const Camera& camera, double x, double y);
-/// Is everything within two pixels the same wall and no light?
-bool isInsideOneWall(const Camera& camera, int x, int y);
 
 /// The ray tracer with nothing left to chance but the points on the lights: all lights, no ambient term. Maps are drawn
 /// one after the other.

@@ -62,8 +62,8 @@ TEST(Views, EveryFieldOfViewShowsTheRoom) {
         double sum = 0, expected = 0;
         for (int y = 0; y < kRoomHeight; ++y)
             for (int x = 0; x < kRoomWidth; ++x) {
-                if (!isInsideOneWall(camera, x, y)) continue;
-                const RoomPoint point = findRoomPoint(camera, x + 0.5, y + 0.5);
+                if (!isInsideOneWall(camera, kRoomWidth, kRoomHeight, x, y)) continue;
+                const RoomPoint point = findRoomPoint(camera, kRoomWidth, kRoomHeight, x + 0.5, y + 0.5);
                 sum += double(picture.rgb[static_cast<size_t>(3 * (y * kRoomWidth + x))]);
                 expected += kTestWallAlbedo * squareLightRoom::computeIrradiance(point.position, point.normal) / 63.75;
             }

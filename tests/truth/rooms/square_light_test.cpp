@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <gtest/gtest.h>
 
-#include "truth/picture_statistics.hpp"
+#include "truth/square_room.hpp"
 #include "truth/test_game.hpp"
 
 namespace q3rt::test {
@@ -15,43 +15,6 @@ const Camera kCamera{.eye = {-200, -180, 100}, .pitch = 10, .yaw = 40};
 constexpr double kTolerance = 0.01;      ///< of the closed form
 constexpr double kErrors = 4;            ///< standard errors that chance may add
 constexpr double kMeanTolerance = 0.001; ///< of the whole picture
-
-struct RoomPoint {
-    dvec3 position{0}, normal{0};
-    bool onLight = false;
-};
-
-/// Where the ray through a point of the picture (pixels) leaves the room.
-RoomPoint findRoomPoint(double x, double y) {
-    const dvec3 direction = rayDirection(kCamera, kWidth, kHeight, x, y), eye(kCamera.eye);
-    RoomPoint result;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (int axis = 0; axis < 3; ++axis) {
-        if (direction[axis] == 0) continue;
-        const bool high = direction[axis] > 0;
-        const double wall = (high ? squareLightRoom::kRoom.maxs : squareLightRoom::kRoom.mins)[axis];
-        const double t = (wall - eye[axis]) / direction[axis];
-        if (t >= nearest) continue;
-        nearest = t;
-        result.position = eye + direction * t;
-        result.normal = dvec3(0);
-        result.normal[axis] = high ? -1 : 1;
-    }
-    result.onLight = result.normal.z < 0 && std::abs(result.position.x) <= squareLightRoom::kLight.maxs.x &&
-                     std::abs(result.position.y) <= squareLightRoom::kLight.maxs.y;
-    return result;
-}
-
-/// Is everything within two pixels the same wall and no light? The room has no shadows: its edges are all there is.
-bool isInsideOneWall(int x, int y) {
-    const dvec3 normal = findRoomPoint(x + 0.5, y + 0.5).normal;
-    for (int dy = -2; dy <= 2; ++dy)
-        for (int dx = -2; dx <= 2; ++dx) {
-            const RoomPoint point = findRoomPoint(x + 0.5 + dx, y + 0.5 + dy);
-            if (point.normal != normal || point.onLight) return false;
-        }
-    return true;
-}
 
 struct Comparison {
     size_t pixels = 0, beyond = 0;
@@ -64,9 +27,9 @@ Comparison compareWithClosedForm(const MeasuredPicture& picture) {
     double got = 0, expected = 0, variance = 0;
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
-            if (!isInsideOneWall(x, y)) continue;
+            if (!isInsideOneWall(kCamera, kWidth, kHeight, x, y)) continue;
             const auto p = static_cast<size_t>(y * kWidth + x);
-            const RoomPoint point = findRoomPoint(x + 0.5, y + 0.5);
+            const RoomPoint point = findRoomPoint(kCamera, kWidth, kHeight, x + 0.5, y + 0.5);
             const double closed =
                 kTestWallAlbedo * squareLightRoom::computeIrradiance(point.position, point.normal) / 63.75;
             const double difference = std::abs(picture.mean[p].r - closed), error = std::sqrt(picture.variance[p].r);
