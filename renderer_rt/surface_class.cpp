@@ -55,6 +55,10 @@ uint32_t surfaceFlags(const Material& material, SurfaceClass surfaceClass) {
     if (material.cull == CullMode::Back) flags |= kSurfaceCullFront;
     if (surfaceClass == SurfaceClass::Sky) flags |= kSurfaceSky;
     if (surfaceClass == SurfaceClass::Layer && !material.polygonOffset) flags |= reflectionFlag(material);
+    if (material.cull == CullMode::None && !material.polygonOffset) flags |= kSurfaceThin;
+    if (std::any_of(material.stages.begin(), material.stages.end(),
+                    [](const Stage& s) { return s.bakedLight == BakedLight::LightGrid; }))
+        flags |= kSurfaceModel;
     // The engine's fog pass: opaque materials, and the faces of fog volumes themselves.
     if (material.sort <= kSortOpaque || material.isFog) flags |= kSurfaceFogged;
     return flags;

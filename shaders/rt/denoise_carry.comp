@@ -21,9 +21,10 @@ void main()
     RtMotion motion = MotionTable(denoise.motionToCurrent).at[old.instance];
     HitPoint point =
         movePoint(motion, old.triangle, unpackUnorm2x16(old.barycentric), HitPoint(old.position, old.error));
-    vec3 seen = old.lit == kLitTurned ? oldGuide.position : point.position;
+    vec3 seen = (old.lit & kLitTurned) != 0u ? oldGuide.position : point.position;
     vec3 normal = moveDirection(motion, old.normal);
     uint index = pixelIndex(pixelOfStratum(stratum, winnerToPixel(winner)));
+    PixelTable(denoise.pixels).at[index].lit = old.lit;
     PixelTable(denoise.pixels).at[index].position = point.position;
     PixelTable(denoise.pixels).at[index].error = point.error;
     PixelTable(denoise.pixels).at[index].normal = normal;

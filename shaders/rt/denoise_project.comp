@@ -13,7 +13,7 @@ bool mayCarry(uvec2 pixel)
     if (!isInside(ivec2(pixel)))
         return false;
     uint index = pixelIndex(pixel);
-    return PixelTable(denoise.previousPixels).at[index].lit != kLitNot &&
+    return PixelTable(denoise.previousPixels).at[index].lit != 0u &&
            PixelTable(denoise.previousPixels).at[index].keyFrame == denoise.previousFrame;
 }
 
@@ -24,7 +24,7 @@ void projectSample(uint stratum, uint number)
     vec3 oldSeen = GuideTable(denoise.previousGuides).at[pixelIndex(from)].position;
     RtMotion motion = MotionTable(denoise.motionToCurrent).at[old.instance];
     // What moves in a mirror is not followed: the way there is not kept.
-    if (motion.kind == kMotionUnknown || (motion.kind != kMotionNone && old.lit == kLitTurned))
+    if (motion.kind == kMotionUnknown || (motion.kind != kMotionNone && (old.lit & kLitTurned) != 0u))
         return;
     vec3 point =
         movePoint(motion, old.triangle, unpackUnorm2x16(old.barycentric), HitPoint(oldSeen, old.error)).position;

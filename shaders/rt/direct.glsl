@@ -62,34 +62,49 @@ LightChoice chooseLight(ShadingPoint point, RtLightRow row, float sunSeen, uvec4
     return choice;
 }
 
+// One side of a lit pixel's surface, as a point that shadow rays leave.
+ShadingPoint sideOf(RtPixel pixel, bool behind)
+{
+    float side = behind ? -1.0 : 1.0;
+    ShadingPoint point;
+    point.position = pixel.position;
+    point.error = pixel.error;
+    point.origin = offsetOrigin(pixel.position, pixel.error, pixel.geometricNormal * side);
+    point.normal = pixel.normal * side;
+    return point;
+}
+
+// Traced irradiance of one side. Where the grid saw no sun a thin chance stays: its cells are coarse.
+vec3 sampleLights(ShadingPoint point, float sunSeen, uvec4 key)
+{
+    RtLightRow row = lightRowOf(point.origin, point.normal);
+    if (rtFrame.lightsPerPixel == 0u)
+        return sumAllLights(point, row, key);
+    vec3 irradiance = vec3(0.0);
+    for (uint n = 0u; n < rtFrame.lightsPerPixel; ++n) {
+        LightChoice choice =
+            chooseLight(point, row, max(sunSeen, kLeastSunChance), sampleBits(key, kDimensionChoice + n));
+        irradiance += shadowed(point, chosenSample(choice));
+    }
+    return irradiance / float(rtFrame.lightsPerPixel);
+}
+
+// What shows both its sides is thin: light that falls on either shows on both, as the map compilers count it.
 void directPixel(uvec2 pixelPosition)
 {
     uint index = pixelIndex(pixelPosition);
     RtPixel pixel = PixelTable(rtFrame.pixels).at[index];
     vec3 light = vec3(1.0), ambient = vec3(0.0);
     if (pixel.lit != 0u && (rtFrame.flags & kFrameIllumination) != 0u) {
-        ShadingPoint point;
-        point.position = pixel.position;
-        point.error = pixel.error;
-        point.origin = offsetOrigin(pixel.position, pixel.error, pixel.geometricNormal);
-        point.normal = pixel.normal;
-        RtLightRow row = lightRowOf(point.origin, point.normal);
-        uvec4 key = ownRandomKey(pixel);
-        GridSample grid = sampleGrid(point.origin, point.normal);
-        // Where the grid saw no sun a thin chance stays: its cells are coarse.
-        float sunSeen = max(grid.sunSeen, kLeastSunChance);
+        bool thin = (pixel.lit & kLitThin) != 0u;
         vec3 irradiance = vec3(0.0);
-        if (rtFrame.lightsPerPixel == 0u) {
-            irradiance = sumAllLights(point, row, key);
-        } else {
-            for (uint n = 0u; n < rtFrame.lightsPerPixel; ++n) {
-                LightChoice choice = chooseLight(point, row, sunSeen, sampleBits(key, kDimensionChoice + n));
-                irradiance += shadowed(point, chosenSample(choice));
-            }
-            irradiance /= float(rtFrame.lightsPerPixel);
-        }
+        GridSample grid = sampleGrid(sideOf(pixel, false).origin, pixel.normal, thin);
+        for (uint side = 0u; side < (thin ? 2u : 1u); ++side)
+            irradiance += sampleLights(sideOf(pixel, side > 0u), grid.sunSeen, ownRandomKey(pixel));
         light = irradiance / kWhiteIrradiance;
         ambient = grid.irradiance * rtFrame.ambient / kWhiteIrradiance;
+        if ((pixel.lit & kLitModel) != 0u)
+            ambient += kModelLeastLight / rtFrame.lightScale;
     }
     ColorTable(rtFrame.irradiance).at[index] = vec4(light, 1.0);
     ColorTable(rtFrame.ambientL).at[index] = vec4(ambient, 1.0);

@@ -10,8 +10,9 @@ struct GridSample {
     float sunSeen;   // [0, 1]
 };
 
-// Trilinear over the cells that are not inside walls; no light, and all of the sky, where there are none.
-GridSample sampleGrid(vec3 point, vec3 normal)
+// Trilinear over the cells that are not inside walls; no light, and all of the sky, where there are none. `thin`: light
+// along the normal counts whichever way it goes.
+GridSample sampleGrid(vec3 point, vec3 normal, bool thin)
 {
     GridSample result = GridSample(vec3(0.0), 1.0);
     if ((rtFrame.flags & kFrameGrid) == 0u)
@@ -40,8 +41,8 @@ GridSample sampleGrid(vec3 point, vec3 normal)
     if (total <= 0.0)
         return result;
     float size2 = dot(direction, direction);
-    float facing = size2 > 0.0 ? max(0.0, dot(normal, direction) * inversesqrt(size2)) : 0.0;
-    result.irradiance = (ambient + directed * facing) / total;
+    float facing = size2 > 0.0 ? dot(normal, direction) * inversesqrt(size2) : 0.0;
+    result.irradiance = (ambient + directed * (thin ? abs(facing) : max(0.0, facing))) / total;
     result.sunSeen = sunSeen / total;
     return result;
 }

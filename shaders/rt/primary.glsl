@@ -6,82 +6,13 @@
 #define Q3RT_RT_PRIMARY_GLSL
 #include "lib/random.glsl"
 #include "rt/accept.glsl"
-#include "rt/lights.glsl"
-#include "rt/past.glsl"
+#include "rt/picture.glsl"
 #include "rt/sampler.glsl"
 #include "rt/sky.glsl"
 #include "rt/turn.glsl"
 
-// A layer that lets less than this through hides what is behind it.
-const float kHidingShare = 0.5;
-
 // Numbers of a ray's parts: near depth range 0, far one 1, one more for each turn; of a reflection from here on.
 const uint kReflectionPart = 32u;
-
-// One water or glass surface along a camera ray is followed both ways: its reflection after the rest. The reflection of
-// a ray that has met one, or has turned, is followed instead of the rest, by chance.
-struct Reflection {
-    vec3 passed; // 0: there is none
-    vec3 position;
-    vec3 normal;
-    float t;
-};
-
-struct Picture {
-    vec3 passed; // what the layers so far let through
-    RtPixel pixel;
-    float weightSum; // of the layers that take light
-    vec2 at;         // where the camera ray goes through the picture, pixels
-    uint turns;      // of the ray so far
-    bool reflected;  // `reflection` has been used
-    Reflection reflection;
-    bool followed; // there are guide and past
-    RtGuide guide;
-    RtPast past;
-};
-
-// Histories follow the lit layer, or else the first that hides most of what is behind it.
-void followLayer(inout Picture picture, CameraRay ray, SurfacePoint point, SurfacePlace place, uint normal)
-{
-    if ((rtFrame.flags & kFrameHistory) == 0u)
-        return;
-    picture.followed = true;
-    CameraRay straight = makeCameraRay(picture.at);
-    picture.guide.position = picture.turns == 0u ? point.hit.position : straight.origin + straight.direction * place.t;
-    picture.guide.normal = normal;
-    picture.past = findPast(picture.guide, place, point, straight, ray);
-}
-
-void addLayer(inout Picture picture, CameraRay ray, SurfacePoint point, SurfacePlace place, MaterialColor color,
-              float random)
-{
-    bool follows = false;
-    uint normal = kNoNormal;
-    picture.pixel.emission += picture.passed * color.glow;
-    vec3 albedo = picture.passed * color.albedo;
-    float weight = albedo.x + albedo.y + albedo.z;
-    if (weight > 0.0) {
-        picture.weightSum += weight;
-        if (random * picture.weightSum < weight) {
-            picture.pixel.lit = picture.turns == 0u ? kLitStraight : kLitTurned;
-            picture.pixel.position = point.hit.position;
-            picture.pixel.error = point.hit.error;
-            picture.pixel.geometricNormal = point.geometricNormal;
-            // A surface seen from behind is lit on the side that is seen.
-            picture.pixel.normal = point.frontFace ? point.normal : -point.normal;
-            picture.pixel.albedo = albedo / weight;
-            picture.pixel.instance = place.instance;
-            picture.pixel.triangle = place.triangle;
-            picture.pixel.barycentric = packUnorm2x16(place.barycentric);
-            follows = true;
-            normal = packNormal(picture.pixel.normal);
-        }
-    }
-    float through = max(color.through.x, max(color.through.y, color.through.z));
-    if (follows || (!picture.followed && through < kHidingShare))
-        followLayer(picture, ray, point, place, normal);
-    picture.passed *= color.through;
-}
 
 // What water or glass reflects. True: the ray goes on as the reflected one.
 bool addReflection(inout Picture picture, inout CameraRay ray, SurfacePoint point, float t, float random)
@@ -269,7 +200,7 @@ void primaryPixel(uvec2 pixelPosition)
     picture.turns = 0u;
     picture.reflected = false;
     picture.reflection = Reflection(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
-    picture.pixel = RtPixel(vec3(0.0), kLitNot, vec3(0.0), vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0), vec3(0.0),
+    picture.pixel = RtPixel(vec3(0.0), 0u, vec3(0.0), vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0), vec3(0.0),
                             vec3(0.0), packKeyPixel(pixelPosition), rtFrame.frame, 0u, 0u, 0u);
     bool near = (rtFrame.flags & kFrameNearEntities) != 0u;
     uint part = near ? 0u : 1u;

@@ -10,6 +10,9 @@ SHARED_FLOAT kTwoPi = 6.28318530717959f;
 // Irradiance that shows a texture at its own brightness, luxel units: the engine shows texture x luxel x 4 / 255.
 SHARED_FLOAT kWhiteIrradiance = 63.75f;
 
+// The engine adds 32 of 255 to all light that falls on a model from around: no model is darker.
+SHARED_FLOAT kModelLeastLight = 0.125490196f;
+
 // Closest distance of the map compilers' inverse-square law, qu. A light nearer than this is no brighter.
 SHARED_FLOAT kLightMinDistanceQu = 16.0f;
 

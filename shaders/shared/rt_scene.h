@@ -47,6 +47,8 @@ SHARED_CONST kSurfaceSky = 0x8u;
 SHARED_CONST kSurfaceFogged = 0x10u; // the fog covers it after its stages; others fade stage by stage
 SHARED_CONST kSurfaceWater = 0x20u;  // reflects by Fresnel's law as the boundary of a volume of water
 SHARED_CONST kSurfaceGlass = 0x40u;  // the same as a thin pane
+SHARED_CONST kSurfaceThin = 0x80u;   // takes light from both sides
+SHARED_CONST kSurfaceModel = 0x100u; // lit by the light grid in the engine, and never less than kModelLeastLight
 
 // A run of triangles of one material, evaluated for this frame.
 struct RtSurface {
@@ -107,9 +109,11 @@ struct RtFog {
     uint hasSurface;
 };
 
-SHARED_CONST kLitNot = 0u;      // nothing here takes light
-SHARED_CONST kLitStraight = 1u; // seen along a straight line
-SHARED_CONST kLitTurned = 2u;   // seen in a mirror or portal
+// RtPixel::lit; 0: nothing here takes light.
+SHARED_CONST kLitStraight = 0x1u; // seen along a straight line
+SHARED_CONST kLitTurned = 0x2u;   // seen in a mirror or portal
+SHARED_CONST kLitThin = 0x4u;     // kSurfaceThin
+SHARED_CONST kLitModel = 0x8u;    // kSurfaceModel
 
 // What the primary stage leaves for the others; one a pixel, row by row.
 struct RtPixel {

@@ -58,7 +58,7 @@ std::vector<RtPixel> DenoiseRig::findSurfaces(const RtFrame& camera) const {
             RtPixel& pixel = pixels.emplace_back();
             pixel.position = camera.eye + direction * std::min(toFloor, toWall);
             pixel.normal = pixel.geometricNormal = toFloor < toWall ? vec3(0, 0, 1) : vec3(-1, 0, 0);
-            pixel.lit = pixel.position.z <= 150 ? kLitStraight : kLitNot;
+            pixel.lit = pixel.position.z <= 150 ? kLitStraight : 0;
             pixel.albedo = vec3(1);
             pixel.keyPixel = x | y << 16;
             pixel.keyFrame = m_number;

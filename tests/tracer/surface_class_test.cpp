@@ -60,6 +60,17 @@ TEST(SurfaceClass, FollowsSidesSkyFogAndOffset) {
     EXPECT_TRUE(surfaceFlags(fog, SurfaceClass::Layer) & kSurfaceFogged);
 }
 
+TEST(SurfaceClass, WhatShowsBothSidesIsThin) {
+    Material material = makeMaterial({testedStage()});
+    EXPECT_FALSE(surfaceFlags(material, SurfaceClass::Tested) & (kSurfaceThin | kSurfaceModel));
+    material.cull = CullMode::None;
+    EXPECT_TRUE(surfaceFlags(material, SurfaceClass::Tested) & kSurfaceThin);
+    material.polygonOffset = true;
+    EXPECT_FALSE(surfaceFlags(material, SurfaceClass::Layer) & kSurfaceThin) << "a mark has a wall behind it";
+    material.stages[0].bakedLight = BakedLight::LightGrid;
+    EXPECT_TRUE(surfaceFlags(material, SurfaceClass::Layer) & kSurfaceModel);
+}
+
 TEST(SurfaceClass, MasksSayWhoSees) {
     EXPECT_EQ(instanceMask(SurfaceClass::Solid, {}), kMaskSolid | kMaskSolidMirror | kMaskShadow);
     EXPECT_EQ(instanceMask(SurfaceClass::Layer, {}), kMaskLayer | kMaskLayerMirror) << "layers let light pass";

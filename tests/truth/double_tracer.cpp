@@ -394,6 +394,15 @@ dvec3 DoubleTracer::pointLight(const DoubleHit& hit) const {
 }
 
 dvec3 DoubleTracer::irradiance(const DoubleHit& hit, std::mt19937& random) const {
+    dvec3 sum = sideIrradiance(hit, random);
+    if (m_materials.drawn(m_world.surfaces[hit.surface].material).cull != CullMode::None) return sum;
+    DoubleHit behind = hit;
+    behind.normal = -hit.normal;
+    behind.geometricNormal = -hit.geometricNormal;
+    return sum + sideIrradiance(behind, random);
+}
+
+dvec3 DoubleTracer::sideIrradiance(const DoubleHit& hit, std::mt19937& random) const {
     return surfaceLight(hit, random) + sunLight(hit, random) + skyLight(hit, random) + pointLight(hit);
 }
 

@@ -38,7 +38,8 @@ class DoubleTracer {
     /// What the eye meets: the first solid, unless something see-through or a sprite may lie before it (then nullopt).
     std::optional<DoubleHit> look(const dvec3& origin, const dvec3& direction) const;
 
-    /// Direct light in luxel units, all lights. The generator only places samples inside their strata.
+    /// Direct light in luxel units, all lights; of both sides where both show. The generator only places samples inside
+    /// their strata.
     dvec3 irradiance(const DoubleHit& hit, std::mt19937& random) const;
 
     const WorldSurface& surfaceOf(const DoubleHit& hit) const { return m_world.surfaces[hit.surface]; }
@@ -59,6 +60,7 @@ class DoubleTracer {
     bool isOpen(const dvec3& from, const dvec3& way, double tMax) const;
     /// The sky that a ray reaches, -1 if something is in the way: index of the world surface.
     int findSky(const dvec3& from, const dvec3& direction) const;
+    dvec3 sideIrradiance(const DoubleHit& hit, std::mt19937& random) const;
     dvec3 triangleLight(const DoubleHit& hit, const TriangleLight& light, int side, std::mt19937& random) const;
     dvec3 surfaceLight(const DoubleHit& hit, std::mt19937& random) const;
     dvec3 sunLight(const DoubleHit& hit, std::mt19937& random) const;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "map_lights.hpp"
+#include "shaders/shared/constants.h"
 #include "support/game_data.hpp"
 #include "tracer/choice_number.hpp"
 #include "truth/test_game.hpp"
@@ -203,8 +204,8 @@ dvec3 PointMethods::runKept(size_t kept) {
     if (probability <= 0) return dvec3(0);
     m_keeps = numberThatKeeps(m_weight, kept);
     // The shader's own weights differ by their rounding: its number must not be a close call.
-    const bool sure = keptCandidate(m_weight, m_keeps - kCloseCall) == kept &&
-                      keptCandidate(m_weight, m_keeps + kCloseCall) == kept;
+    const bool sure =
+        keptCandidate(m_weight, m_keeps - kCloseCall) == kept && keptCandidate(m_weight, m_keeps + kCloseCall) == kept;
     if (!sure) {
         EXPECT_LT(probability, 1e-5) << "an outcome that no number gives";
         m_missed += m_given[kept];
@@ -319,6 +320,50 @@ TEST(MethodsOfLightChoice, AgreeInTheTestMaps) {
     TestGame game;
     for (const char* map : {squareLightRoom::kName, threeClusterCorridor::kName})
         expectEqualMethods(checkMap(game, map));
+}
+
+/// L of a pixel with a fixed place on every light.
+vec3 lightOf(const MapLights& map, const RtPixel& pixel, uint lightsPerPixel) {
+    DirectInputs inputs;
+    inputs.frame = map.describeFrame();
+    inputs.frame.lightsPerPixel = lightsPerPixel;
+    inputs.frame.candidatesPerChoice = 1;
+    inputs.frame.lightScale = 1;
+    inputs.visible = [&](const vec3& origin, const vec3& direction) { return map.isVisible(origin, direction); };
+    inputs.sky = [&](const vec3& origin, const vec3& direction) { return map.reachesSky(origin, direction); };
+    inputs.random = [](uint) { return glm::uvec4(1u << 30, 1u << 31, 1u << 29, 1u << 31); };
+    return runDirectStage(inputs, pixel);
+}
+
+TEST(DirectStage, ThinSurfacesTakeTheLightOfBothSides) {
+    TestGame game;
+    const MapLights map(game, squareLightRoom::kName);
+    int bothLit = 0;
+    for (const RtPixel& wall : map.pickPoints(500)) {
+        // A sheet in the middle of the room, as that wall is turned and a little more.
+        RtPixel front = wall;
+        front.position = wall.position * 0.25f + vec3(0, 0, 80);
+        front.normal = front.geometricNormal = glm::normalize(wall.geometricNormal + vec3(0.3f, 0.2f, 0.1f));
+        RtPixel back = front, thin = front;
+        back.normal = back.geometricNormal = -front.normal;
+        thin.lit |= kLitThin;
+        for (const uint lightsPerPixel : {0u, 1u}) {
+            const vec3 sides[2] = {lightOf(map, front, lightsPerPixel), lightOf(map, back, lightsPerPixel)};
+            EXPECT_EQ(lightOf(map, thin, lightsPerPixel), sides[0] + sides[1]);
+            if (sides[0].x != sides[1].x && sides[1].x > 0) ++bothLit;
+        }
+    }
+    EXPECT_GT(bothLit, 200);
+}
+
+TEST(DirectStage, ModelsHaveTheEnginesLeastLight) {
+    TestGame game;
+    const MapLights map(game, squareLightRoom::kName);
+    for (RtPixel pixel : map.pickPoints(20)) {
+        const vec3 light = lightOf(map, pixel, 0);
+        pixel.lit |= kLitModel;
+        EXPECT_EQ(lightOf(map, pixel, 0), light + vec3(kModelLeastLight));
+    }
 }
 
 class MapMethods : public testing::TestWithParam<const char*> {};
