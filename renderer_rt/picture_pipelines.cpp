@@ -1,8 +1,6 @@
 #include "renderer_rt/picture_pipelines.hpp"
 
 #include "gpu/device.hpp"
-#include "renderer_vk/gpu_context.hpp"
-#include "shaders/shared/rt_output.h"
 #include "shaders/shared/rt_taa.h"
 #include "spirv/rt_accumulate_comp.hpp"
 #include "spirv/rt_accumulate_error_comp.hpp"
@@ -10,8 +8,7 @@
 #include "spirv/rt_composite_comp.hpp"
 #include "spirv/rt_exposure_adapt_comp.hpp"
 #include "spirv/rt_exposure_count_comp.hpp"
-#include "spirv/rt_output_frag.hpp"
-#include "spirv/rt_output_vert.hpp"
+#include "spirv/rt_output_comp.hpp"
 #include "spirv/rt_taa_comp.hpp"
 
 namespace q3rt {
@@ -36,23 +33,28 @@ const StageCode kStages[kPictureStageCount] = {
 
 } // namespace
 
-PicturePipelines::PicturePipelines(Device& device) {
+PicturePipelines::PicturePipelines(Device& device)
+    : m_targetLayout(device, {{0, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_SHADER_STAGE_COMPUTE_BIT}}, "output target")
+    , m_output(device, {"output", {shaders::rt_output_comp, {}}, {{m_targetLayout.handle()}, sizeof(RtOutput)}}) {
     for (size_t i = 0; i < kPictureStageCount; ++i)
         m_stages[i] = ComputePipeline(device, {kStages[i].name, {kStages[i].code, {}}, {{}, kStages[i].pushBytes}});
-    GraphicsPipelineInfo output;
-    output.name = "output";
-    output.vertex = {shaders::rt_output_vert, {}};
-    output.fragment = {shaders::rt_output_frag, {}};
-    output.interface = {{}, sizeof(RtOutput)};
-    output.colorFormats = {kTargetFormat};
-    m_output = GraphicsPipeline(device, output);
 }
 
-void PicturePipelines::warm(VkCommandBuffer commands) const {
+void PicturePipelines::dispatchOutput(VkCommandBuffer commands, VkDescriptorSet target, const RtOutput& push) const {
+    m_output.bind(commands);
+    m_output.bindSets(commands, {target});
+    m_output.push(commands, push);
+    m_output.dispatchOver(commands, {push.size.x - push.firstColumn, push.size.y});
+}
+
+void PicturePipelines::warm(VkCommandBuffer commands, VkDescriptorSet target) const {
     for (const ComputePipeline& pipeline : m_stages) {
         pipeline.bind(commands);
         pipeline.warmUp(commands);
     }
+    m_output.bind(commands);
+    m_output.bindSets(commands, {target});
+    m_output.warmUp(commands);
 }
 
 } // namespace q3rt

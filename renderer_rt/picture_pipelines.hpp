@@ -5,8 +5,9 @@
 #include <array>
 
 #include "gpu/compute_pipeline.hpp"
-#include "gpu/graphics_pipeline.hpp"
+#include "gpu/descriptors.hpp"
 #include "shaders/shared/rt_exposure.h"
+#include "shaders/shared/rt_output.h"
 #include "shaders/shared/rt_report.h"
 
 namespace q3rt {
@@ -28,9 +29,11 @@ class PicturePipelines {
         const ComputePipeline& pipeline = bind(commands, stage, push);
         pipeline.dispatch(commands, groupCount);
     }
-    const GraphicsPipeline& output() const { return m_output; }
-    /// Makes the driver compile all of them now.
-    void warm(VkCommandBuffer commands) const;
+    /// Of the set that dispatchOutput() wants: slot 0 is the target as a storage image.
+    const DescriptorLayout& targetLayout() const { return m_targetLayout; }
+    void dispatchOutput(VkCommandBuffer commands, VkDescriptorSet target, const RtOutput& push) const;
+    /// Makes the driver compile all of them now. `target`: a set of targetLayout(), its image as for dispatchOutput().
+    void warm(VkCommandBuffer commands, VkDescriptorSet target) const;
 
   private:
     template <typename Push>
@@ -42,7 +45,8 @@ class PicturePipelines {
     }
 
     std::array<ComputePipeline, kPictureStageCount> m_stages;
-    GraphicsPipeline m_output;
+    DescriptorLayout m_targetLayout;
+    ComputePipeline m_output;
 };
 
 } // namespace q3rt

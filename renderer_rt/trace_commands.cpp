@@ -119,6 +119,8 @@ RunTime TraceRenderer::runStill(VkExtent2D extent, bool filters) {
     ViewBuffers buffers(context().device(), {{0, 0}, extent}, extent);
     const TracedView& view = prepareView(frame, scene, buffers);
     DescriptorArena arena(context().device());
+    constexpr ResourceState storageWritten{access::kComputeWrite.stages, access::kComputeWrite.access,
+                                           access::kComputeWrite.layout};
     const auto start = std::chrono::steady_clock::now();
     const std::clock_t processorStart = std::clock();
     context().device().submitAndWait([&](VkCommandBuffer commands) {
@@ -132,7 +134,10 @@ RunTime TraceRenderer::runStill(VkExtent2D extent, bool filters) {
         input.extent = extent;
         m_pipelines->warm(commands, input);
         if (filters && buffers.denoiser) m_denoisePipelines->warm(commands);
-        if (filters) m_pictures->warm(commands);
+        if (!filters) return;
+        context().target().transition(commands, storageWritten);
+        m_pictures->warm(commands,
+                         arena.make(m_pictures->targetLayout(), {bindStorageImage(0, context().target().view())}));
     });
     const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
     const double processorMs = 1000.0 * static_cast<double>(std::clock() - processorStart) / CLOCKS_PER_SEC;

@@ -59,7 +59,7 @@ class TraceRenderer final : public GpuRenderer {
     void dropUnusedBuffers();
     /// The part of the view's rectangle that lies on the target.
     std::optional<VkRect2D> visibleArea(const SceneView& scene);
-    OutputWork describeOutput(const ViewBuffers& buffers, const TracedView& view) const;
+    RtOutput describeOutput(const ViewBuffers& buffers, const TracedView& view) const;
     /// Lets the view's passes count, if anyone wants to know in this frame.
     void beginReport(FrameGraph& graph, ViewResources& resources);
     /// rt_pause and rt_accumulate stop the game.

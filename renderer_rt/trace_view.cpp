@@ -253,22 +253,19 @@ void TraceRenderer::dropUnusedBuffers() {
     });
 }
 
-OutputWork TraceRenderer::describeOutput(const ViewBuffers& buffers, const TracedView& view) const {
+RtOutput TraceRenderer::describeOutput(const ViewBuffers& buffers, const TracedView& view) const {
     const bool accumulated = m_settings.rt_accumulate != 0;
     const Buffer& filtered = buffers.taa ? buffers.taa->history : buffers.picture;
     const VkRect2D& area = buffers.area;
     const uint32_t middle = area.extent.width / 2;
-    OutputWork output{.push = {}, .drawn = area};
-    output.push.frame = view.frameSlice.address;
-    output.push.picture = (accumulated ? buffers.sums->reference : filtered).address();
-    output.push.right = (buffers.sums ? buffers.sums->reference : filtered).address();
-    output.push.corner = {static_cast<uint32_t>(area.offset.x), static_cast<uint32_t>(area.offset.y)};
-    output.push.width = area.extent.width;
-    output.push.split = m_settings.rt_compare == kCompareAccumulated ? middle : area.extent.width;
-    if (m_settings.rt_compare == kCompareRaster) {
-        output.drawn.offset.x += static_cast<int32_t>(middle);
-        output.drawn.extent.width -= middle;
-    }
+    RtOutput output{};
+    output.frame = view.frameSlice.address;
+    output.picture = (accumulated ? buffers.sums->reference : filtered).address();
+    output.right = (buffers.sums ? buffers.sums->reference : filtered).address();
+    output.corner = {static_cast<uint32_t>(area.offset.x), static_cast<uint32_t>(area.offset.y)};
+    output.size = {area.extent.width, area.extent.height};
+    output.split = m_settings.rt_compare == kCompareAccumulated ? middle : area.extent.width;
+    output.firstColumn = m_settings.rt_compare == kCompareRaster ? middle : 0;
     return output;
 }
 

@@ -3,23 +3,18 @@
 namespace q3rt {
 
 void addOutput(FrameGraph& graph, ViewResources& resources, FrameTargets& targets, const ViewWork& work,
-               const OutputWork& output) {
+               const RtOutput& output) {
     graph.addPass(
         "output",
         [&](PassBuilder& pass) {
-            pass.read(resources.picture, access::kFragmentRead);
-            if (resources.reference) pass.read(resources.reference, access::kFragmentRead);
-            targets.color = pass.write(targets.color, access::kColorAttachment);
+            pass.read(resources.picture, access::kComputeRead);
+            if (resources.reference) pass.read(resources.reference, access::kComputeRead);
+            targets.color = pass.write(targets.color, access::kComputeWrite);
         },
         [work, output, color = targets.color](PassContext& pass) {
-            const VkCommandBuffer commands = pass.commands();
-            const Attachment attachment{.view = pass.view(color)};
-            beginRendering(commands, pass.extent(color), {&attachment, 1});
-            vkCmdSetScissor(commands, 0, 1, &output.drawn);
-            work.pictures.output().bind(commands);
-            work.pictures.output().push(commands, output.push);
-            vkCmdDraw(commands, 3, 1, 0, 0);
-            vkCmdEndRenderingKHR(commands);
+            const VkDescriptorSet target =
+                pass.makeSet(work.pictures.targetLayout(), {bindStorageImage(0, pass.view(color))});
+            work.pictures.dispatchOutput(pass.commands(), target, output);
         });
 }
 

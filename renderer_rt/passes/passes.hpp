@@ -69,12 +69,8 @@ void addExposureCount(FrameGraph& graph, ViewResources& resources, const ViewWor
 /// "accumulate": the plain sample into the sums, their mean into radiance and reference; "accumulate error" if there is
 /// a report.
 void addAccumulate(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
-struct OutputWork {
-    RtOutput push{};
-    VkRect2D drawn{}; ///< of the target
-};
 /// "output": the picture through the output curve onto its rectangle of the target.
 void addOutput(FrameGraph& graph, ViewResources& resources, FrameTargets& targets, const ViewWork& work,
-               const OutputWork& output);
+               const RtOutput& output);
 
 } // namespace q3rt

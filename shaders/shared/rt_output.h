@@ -1,4 +1,4 @@
-// The output curve, and what the output pass draws.
+// The output curve, and what the output pass reads.
 #ifndef Q3RT_SHARED_RT_OUTPUT_H
 #define Q3RT_SHARED_RT_OUTPUT_H
 #include "rt_scene.h"
@@ -10,11 +10,12 @@ SHARED_CONST kCurveReinhard = 2u;
 
 struct RtOutput {
     SHARED_ADDRESS frame;   // RtFrame
-    SHARED_ADDRESS picture; // vec4[], rows of `width`
+    SHARED_ADDRESS picture; // vec4[], of the view
     SHARED_ADDRESS right;   // the same: shown from column `split` on
     SHARED_UVEC2 corner;    // of the view on the target, pixels
-    uint width;
+    SHARED_UVEC2 size;      // of the view
     uint split;
+    uint firstColumn; // that is shown
 };
 
 SHARED_END
