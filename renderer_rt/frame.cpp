@@ -18,6 +18,12 @@ void TraceRenderer::drawWorldView(FrameGraph& graph, FrameTargets& targets, cons
     if (m_settings.rt_compare == kCompareRaster)
         raster().addView(graph, targets, frame, scene, drawListSettings(), "compare raster");
     if (view.top) addAcceleration(graph, resources, work);
+    if (m_settings.rt_illumination == kPlainIllumination) {
+        m_pipelines->requirePlain(context().device());
+        addPlain(graph, resources, work);
+        addOutput(graph, resources, targets, work, describeOutput(buffers, view));
+        return;
+    }
     addPrimary(graph, resources, work);
     if (buffers.denoiser) buffers.denoiser->addBeforeDirect(graph, resources);
     addDirect(graph, resources, work);

@@ -4,6 +4,9 @@
 #include "spirv/rt_direct_compute.hpp"
 #include "spirv/rt_direct_query.hpp"
 #include "spirv/rt_direct_rgen.hpp"
+#include "spirv/rt_plain_compute.hpp"
+#include "spirv/rt_plain_query.hpp"
+#include "spirv/rt_plain_rgen.hpp"
 #include "spirv/rt_primary_compute.hpp"
 #include "spirv/rt_primary_query.hpp"
 #include "spirv/rt_primary_rgen.hpp"
@@ -25,6 +28,8 @@ struct StageCode {
 StageCode codeOf(TraceStage stage) {
     if (stage == TraceStage::Primary)
         return {"primary", shaders::rt_primary_rgen, shaders::rt_primary_query, shaders::rt_primary_compute};
+    if (stage == TraceStage::Plain)
+        return {"plain", shaders::rt_plain_rgen, shaders::rt_plain_query, shaders::rt_plain_compute};
     return {"direct", shaders::rt_direct_rgen, shaders::rt_direct_query, shaders::rt_direct_compute};
 }
 
@@ -45,23 +50,27 @@ uint64_t StagePipelines::hashOfCode() {
 
 StagePipelines::StagePipelines(Device& device, Backend backend, VkDescriptorSetLayout textures)
     : m_backend(backend) {
-    PipelineInterface interface;
-    interface.sets = {textures};
-    interface.pushConstantBytes = sizeof(RtPush);
+    m_interface.sets = {textures};
+    m_interface.pushConstantBytes = sizeof(RtPush);
     if (usesStructures(backend)) {
         m_structureLayout =
             DescriptorLayout(device, {{0, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR}}, "traced scene");
-        interface.sets.push_back(m_structureLayout.handle());
+        m_interface.sets.push_back(m_structureLayout.handle());
     }
-    createTraceStage(device, TraceStage::Primary, interface);
-    createTraceStage(device, TraceStage::Direct, interface);
+    createTraceStage(device, TraceStage::Primary);
+    createTraceStage(device, TraceStage::Direct);
 }
 
-void StagePipelines::createTraceStage(Device& device, TraceStage stage, const PipelineInterface& interface) {
+void StagePipelines::requirePlain(Device& device) {
+    if (!m_hasPlain) createTraceStage(device, TraceStage::Plain);
+    m_hasPlain = true;
+}
+
+void StagePipelines::createTraceStage(Device& device, TraceStage stage) {
     const StageCode code = codeOf(stage);
     if (m_backend != Backend::Pipeline) {
         const Spirv words = m_backend == Backend::Query ? code.query : code.compute;
-        m_computeStages[indexOf(stage)] = ComputePipeline(device, {code.name, {words, {}}, interface});
+        m_computeStages[indexOf(stage)] = ComputePipeline(device, {code.name, {words, {}}, m_interface});
         return;
     }
     RayTracingPipelineInfo info;
@@ -69,12 +78,13 @@ void StagePipelines::createTraceStage(Device& device, TraceStage stage, const Pi
     info.rayGeneration = {code.rayGeneration, {}};
     info.misses = {{shaders::trace_record_rmiss, {}}, {shaders::trace_layers_rmiss, {}}};
     info.hitGroups.resize(kHitGroupCount);
-    info.hitGroups[kHitGroupRecord] = {.closestHit = {shaders::trace_record_rchit, {}},
-                                       .anyHit = {shaders::trace_accept_rahit, {}},
-                                       .intersection = {}};
+    info.hitGroups[kHitGroupRecord] = {
+        .closestHit = {shaders::trace_record_rchit, {}}, .anyHit = {}, .intersection = {}};
+    // The plain stage takes all solids as opaque.
+    if (stage != TraceStage::Plain) info.hitGroups[kHitGroupRecord].anyHit = {shaders::trace_accept_rahit, {}};
     info.hitGroups[kHitGroupLayers] = {
         .closestHit = {}, .anyHit = {shaders::trace_layers_rahit, {}}, .intersection = {}};
-    info.interface = interface;
+    info.interface = m_interface;
     m_tracePipelines[indexOf(stage)] = RayTracingPipeline(device, info);
 }
 

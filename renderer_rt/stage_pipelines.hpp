@@ -14,8 +14,8 @@
 namespace q3rt {
 
 /// Stages that trace rays.
-enum class TraceStage { Primary, Direct };
-inline constexpr size_t kTraceStageCount = 2;
+enum class TraceStage { Primary, Direct, Plain };
+inline constexpr size_t kTraceStageCount = 3;
 
 /// What a dispatch binds.
 struct StageInput {
@@ -30,8 +30,10 @@ class StagePipelines {
     /// Of all back ends' stages: what was measured with other shaders is out of date.
     static uint64_t hashOfCode();
     StagePipelines(Device& device, Backend backend, VkDescriptorSetLayout textures);
+    /// The plain stage is made when it is first wanted.
+    void requirePlain(Device& device);
     void dispatch(VkCommandBuffer commands, TraceStage stage, const StageInput& input) const;
-    /// Runs every stage once, so that the driver compiles it now.
+    /// Runs primary and direct once, so that the driver compiles them now.
     void warm(VkCommandBuffer commands, const StageInput& input) const;
     const DescriptorLayout& structureLayout() const { return m_structureLayout; }
     Backend backend() const { return m_backend; }
@@ -42,10 +44,12 @@ class StagePipelines {
 
   private:
     void bindInput(VkCommandBuffer commands, const Pipeline& pipeline, const StageInput& input) const;
-    void createTraceStage(Device& device, TraceStage stage, const PipelineInterface& interface);
+    void createTraceStage(Device& device, TraceStage stage);
 
     Backend m_backend;
     DescriptorLayout m_structureLayout;
+    PipelineInterface m_interface;
+    bool m_hasPlain = false;
     std::array<RayTracingPipeline, kTraceStageCount> m_tracePipelines;
     std::array<ComputePipeline, kTraceStageCount> m_computeStages;
 };

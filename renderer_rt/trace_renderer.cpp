@@ -5,6 +5,7 @@
 #include "base/measured_choices.hpp"
 #include "gpu/device.hpp"
 #include "renderer_rt/calibration.hpp"
+#include "renderer_rt/presets.hpp"
 
 namespace q3rt {
 
@@ -90,6 +91,9 @@ void TraceRenderer::onGpuFrameBegin(const FrameCommands&) {
     for (const TimerRow& row : timers.results())
         finishedMs += row.ms;
     m_pace.apply(m_settings, context().ring().frameNumber(), timers.resultsFrame(), finishedMs);
+    // Its picture is a function of the frame alone.
+    if (m_settings.rt_illumination == kPlainIllumination)
+        applySettings("rt_accumulate 0 rt_autoExposure 0 rt_compare 0 rt_denoiser 0 rt_scale 100 rt_taa 0", m_settings);
     m_views.clear();
     followLights();
     m_scene->beginFrame();

@@ -16,6 +16,9 @@ namespace q3rt {
 /// Values of rt_printPerfStats.
 inline constexpr int kPerformanceLine = 1, kPerformanceOverlay = 2;
 
+/// A value of rt_illumination.
+inline constexpr int kPlainIllumination = 2;
+
 /// Values of rt_compare.
 inline constexpr int kCompareRaster = 1, kCompareAccumulated = 2;
 

@@ -54,6 +54,8 @@ void addAcceleration(FrameGraph& graph, ViewResources& resources, const ViewWork
 ViewResources importView(FrameGraph& graph, ViewBuffers& buffers);
 /// "primary": camera rays to RtPixel, and to guides and pasts if there is a history.
 void addPrimary(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
+/// "plain": camera and shadow rays to a picture of white surfaces, in place of all passes up to the output.
+void addPlain(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
 /// "direct": shadow rays to irradiance.
 void addDirect(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
 struct ExposureStep {

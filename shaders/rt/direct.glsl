@@ -7,20 +7,9 @@
 #include "rt/grid.glsl"
 #include "rt/lights.glsl"
 #include "rt/sampler.glsl"
-#include "rt/sky_hit.glsl"
+#include "rt/shadow.glsl"
 
 const float kLeastSunChance = 0.0625;
-
-// Skies stop light as walls do, but for the light that comes from them.
-vec3 shadowed(ShadingPoint point, LightSample lit)
-{
-    if (lightWeight(lit.irradiance) <= 0.0)
-        return vec3(0.0);
-    // One search for both kinds: two would be waited for one after the other where neighbours differ.
-    Hit hit = traceSolid(point.origin, lit.direction, 1.0, kMaskShadow, lit.fromSky);
-    bool open = lit.fromSky ? isSky(hit) : hit.t == 0.0;
-    return open ? lit.irradiance : vec3(0.0);
-}
 
 // Every light with its own shadow ray: rt_numRandomDL 0.
 vec3 sumAllLights(ShadingPoint point, RtLightRow row, uvec4 key)

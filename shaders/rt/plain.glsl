@@ -1,0 +1,67 @@
+// Plain shading of one pixel: the closest solid, white and opaque whatever it is made of, in the light of one ray
+// toward one light that may shine on it. Two searches and what they ask for: what tracing costs by itself.
+#ifndef Q3RT_RT_PLAIN_GLSL
+#define Q3RT_RT_PLAIN_GLSL
+#include "lib/ray.glsl"
+#include "lib/tonemap.glsl"
+#include "rt/shadow.glsl"
+#include "rt/surface.glsl"
+
+ShadingPoint findPlainPoint(Hit hit, vec3 direction)
+{
+    SceneTriangle triangle = findTriangle(hit.instance, hit.triangle);
+    VertexTable vertices = VertexTable(triangle.vertices);
+    vec3 corner0 = vertices.at[triangle.vertex.x].position;
+    vec3 corner1 = vertices.at[triangle.vertex.y].position;
+    vec3 corner2 = vertices.at[triangle.vertex.z].position;
+    HitPoint at = makeHitPoint(corner0, corner1, corner2, hit.barycentric);
+    vec3 normal = cross(corner2 - corner0, corner1 - corner0);
+    if (triangle.entity != 0u) {
+        RtEntity entity = EntityTable(rtFrame.entities).at[triangle.entity];
+        at = transformHitPoint(entity.worldFromModel[0], entity.worldFromModel[1], entity.worldFromModel[2], at,
+                               rtFrame.inverseError);
+        normal = normalToWorld(entity, normal);
+    }
+    ShadingPoint point;
+    point.position = at.position;
+    point.error = at.error;
+    point.normal = unitOr(dot(normal, direction) < 0.0 ? normal : -normal, -direction);
+    point.origin = offsetOrigin(at.position, at.error, point.normal);
+    return point;
+}
+
+// One of the row's lights, or one of those in no row, as if it alone gave the light of all.
+LightSample drawPlainLight(ShadingPoint point, uvec4 bits)
+{
+    RtLightRow row = lightRowOf(point.origin, point.normal);
+    uint kinds = rtFrame.lightCount + (row.facing > 0u ? 1u : 0u);
+    vec4 random = unitFloats(bits);
+    uint kind = min(uint(random.z * float(kinds)), max(kinds, 1u) - 1u);
+    LightSample lit = darkSample(point.normal);
+    if (kind < rtFrame.lightCount) {
+        lit = sampleOther(LightTable(rtFrame.lights).at[kind], point, random.xy, row.seesSky != 0u);
+    } else if (kinds > 0u) {
+        DrawnLight drawn = drawLight(row, bits.w);
+        lit = sampleRowLight(drawn.light, point, random.xy);
+        lit.irradiance *= drawn.weight;
+    }
+    lit.irradiance *= float(kinds);
+    return lit;
+}
+
+void plainPixel(uvec2 pixelPosition)
+{
+    vec3 direction = cameraDirection(rtFrame.forward, rtFrame.left, rtFrame.up,
+                                     (vec2(pixelPosition) + 0.5) / vec2(rtFrame.size));
+    Hit hit = traceSight(rtFrame.eye, direction, 0.0, rtFrame.farQu, kMaskSolid, 0u, LayerKey(0.0, 0u, 0u)).solid;
+    vec3 light = vec3(0.0);
+    if (hit.t > 0.0) {
+        ShadingPoint point = findPlainPoint(hit, direction);
+        LightSample lit = drawPlainLight(point, randomBits(randomKey(pixelPosition), kDimensionChoice));
+        light = shadowed(point, lit) / kWhiteIrradiance;
+    }
+    vec3 shown = clampKeepingHue(light * (rtFrame.lightScale * rtFrame.exposure));
+    ColorTable(rtFrame.picture).at[pixelIndex(pixelPosition)] = vec4(shown, 1.0);
+}
+
+#endif
