@@ -13,8 +13,17 @@ namespace {
 // Half size of the sky cube as a part of the far distance: its corners stay inside.
 constexpr float kSkyPart = 1.75f;
 constexpr float kBlackGrey = 0.0f;
+constexpr float kOpaqueSort = 3.0f;
 
 float wholeByte(float value) { return std::floor(std::clamp(value, 0.0f, 1.0f) * 255.0f) / 255.0f; }
+
+/// Every pixel of such a surface gets a colour and a depth of its own, whatever lies behind.
+bool coversWhatIsBehind(const Material& material) {
+    if (material.sort != kOpaqueSort || material.polygonOffset || material.stages.empty()) return false;
+    const Stage& first = material.stages.front();
+    return !first.blended && first.depthWrite && first.depthFunc == DepthFunc::LessEqual &&
+           first.alphaTest == AlphaTest::None;
+}
 
 StageState pictureStage(TextureId texture) {
     StageState state{};
@@ -73,20 +82,24 @@ int DrawListBuilder::fogIndex(ViewWork& work, int fog) {
 }
 
 void DrawListBuilder::appendLights(ViewWork& work, DrawBatch& batch, size_t firstItem, size_t lastItem) {
-    std::vector<uint32_t> touching;
+    const auto lights = work.settings.dynamicLights ? work.lights() : std::span<const SceneLight>();
+    m_batchLights.clear();
     for (size_t i = firstItem; i < lastItem; ++i) {
         const Item& item = work.items[i];
-        for (uint32_t l = 0; l < item.lightCount; ++l)
-            touching.push_back(work.lightRefs[item.firstLight + l]);
+        const int surface =
+            item.fromWorld ? static_cast<int>(item.surface) : work.geometry.surfaces[item.surface].worldSurface;
+        if (surface < 0) continue;
+        for (const uint32_t light : m_lights->touching(static_cast<uint32_t>(surface)))
+            if (light < lights.size()) m_batchLights.push_back(light);
     }
-    if (touching.empty()) return;
-    std::ranges::sort(touching);
-    touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
+    if (m_batchLights.empty()) return;
+    std::ranges::sort(m_batchLights);
+    m_batchLights.erase(std::unique(m_batchLights.begin(), m_batchLights.end()), m_batchLights.end());
     const mat4 modelFromWorld = glm::inverse(work.geometry.entities[work.items[firstItem].entity].worldFromModel);
     batch.firstLight = static_cast<uint32_t>(work.out.lights.size());
-    batch.lightCount = static_cast<uint32_t>(touching.size());
-    for (const uint32_t index : touching) {
-        const SceneLight& light = work.lights()[index];
+    batch.lightCount = static_cast<uint32_t>(m_batchLights.size());
+    for (const uint32_t index : m_batchLights) {
+        const SceneLight& light = lights[index];
         RasterLight target{};
         target.origin = vec3(modelFromWorld * vec4(light.origin, 1.0f));
         target.radius = light.radius;
@@ -137,9 +150,8 @@ void DrawListBuilder::makeBatches(ViewWork& work) {
         size_t last = first + 1;
         for (; last < work.items.size(); ++last) {
             const Item& next = work.items[last];
-            const bool same = next.material == head.material && next.fog == head.fog &&
-                              (next.lightCount > 0) == (head.lightCount > 0) && next.fromWorld == head.fromWorld &&
-                              (merge || next.entity == head.entity);
+            const bool same = next.material == head.material && next.fog == head.fog && next.lit == head.lit &&
+                              next.fromWorld == head.fromWorld && (merge || next.entity == head.entity);
             if (!same) break;
         }
         appendBatch(work, first, last);
@@ -171,6 +183,7 @@ void DrawListBuilder::appendBatch(ViewWork& work, size_t firstItem, size_t lastI
     batch.stages = m_stages.evaluate(id, record.stage);
     batch.entity = entityIndex(work, last.entity);
     batch.fog = fogIndex(work, last.fog);
+    batch.depthFirst = last.fromWorld && !work.view.portal && coversWhatIsBehind(material);
     if (record.flags & entityFlag::kDepthHack) batch.depthRange = DepthRange::Weapon;
     constexpr uint32_t kUnlit = surfaceParm::kNoDlight | surfaceParm::kSky;
     if (material.sort <= 3 && (material.surfaceFlags & kUnlit) == 0) appendLights(work, batch, firstItem, lastItem);

@@ -26,6 +26,7 @@ struct DrawBatch {
     MaterialId material = 0; ///< the one that is drawn (remapped)
     StageRange stages;       ///< first may have kOwnStageBit
     bool ownStages = false;  ///< draw with the state of a sky box or cinematic, not of the material's stages
+    bool depthFirst = false; ///< its depth may be drawn before everything else of the view
     bool blendOwn = false;   ///< own stages only: alpha blend, no depth
     VertexSource source = VertexSource::World;
     DepthRange depthRange = DepthRange::Normal;

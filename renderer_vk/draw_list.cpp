@@ -36,6 +36,7 @@ DrawListBuilder::DrawListBuilder(const MaterialLibrary& materials, const ModelLi
     , m_world(world) {
     if (!world) return;
     m_visibility = std::make_unique<WorldVisibility>(*world);
+    m_lights = std::make_unique<SurfaceLights>(world->surfaces.size());
     m_handled.resize(world->surfaces.size());
 }
 
@@ -65,6 +66,7 @@ void DrawListBuilder::buildView(ViewWork& work) {
     geometry.isPortalView = work.view.portal;
     geometry.mirrored = work.view.mirrored;
     geometry.deformWorld = world && work.settings.drawWorld;
+    if (work.settings.raster.r_nocull == 0) geometry.cullPlanes = work.view.frustum;
     buildViewGeometry(work.frame, *work.view.scene, work.view.eye, m_world, m_models, m_materials, geometry,
                       work.geometry);
     work.vertexBase = static_cast<uint32_t>(work.out.vertices.size());
@@ -116,41 +118,37 @@ void DrawListBuilder::findDeformed(ViewWork& work) {
     }
 }
 
-void DrawListBuilder::addWorld(ViewWork& work) {
-    if (work.settings.dynamicLights) findWorldLights(*m_world, work.visible, work.lights(), work.worldLights);
-    auto light = work.worldLights.begin();
-    for (size_t i = 0; i < work.visible.surfaces.size(); ++i) {
-        const auto first = static_cast<uint32_t>(work.lightRefs.size());
-        for (; light != work.worldLights.end() && light->first == i; ++light)
-            work.lightRefs.push_back(light->second);
-        addWorldSurface(work, work.visible.surfaces[i], 0, first, static_cast<uint32_t>(work.lightRefs.size()) - first);
-    }
+bool DrawListBuilder::touchWorldLights(const ViewWork& work, size_t place) {
+    const auto reaching = m_lights->reaching(place);
+    if (reaching.empty()) return false;
+    const uint32_t surface = work.visible.surfaces[place];
+    std::vector<uint32_t>& touching = m_lights->touching(surface);
+    touching.clear();
+    for (const auto& [unused, light] : reaching)
+        if (lightTouchesSurface(m_world->surfaces[surface], work.lights()[light])) touching.push_back(light);
+    return !touching.empty();
 }
 
-void DrawListBuilder::addWorldSurface(ViewWork& work, uint32_t index, uint32_t entity, uint32_t firstLight,
-                                      uint32_t lightCount) {
+void DrawListBuilder::addWorld(ViewWork& work) {
+    const auto lights = work.settings.dynamicLights ? work.lights() : std::span<const SceneLight>();
+    m_lights->findReached(*m_world, work.visible, lights);
+    for (size_t i = 0; i < work.visible.surfaces.size(); ++i)
+        addWorldSurface(work, work.visible.surfaces[i], 0, [&] { return touchWorldLights(work, i); });
+}
+
+template <typename Touch>
+void DrawListBuilder::addWorldSurface(ViewWork& work, uint32_t index, uint32_t entity, const Touch& touch) {
     // Once a view, whoever asks first: a second entity with the same brush model shows nothing.
     if (m_handled[index] == m_stamp) return;
     m_handled[index] = m_stamp;
     const WorldSurface& surface = m_world->surfaces[index];
     const EntityRecord& record = work.geometry.entities[entity];
     if (surfaceCulled(work, surface, record, entity == 0)) return;
-    const Material& material = m_materials.get(surface.material);
-    const bool lit = lightCount > 0;
-    Item item{makeSortKey(material.sortRank, record.sceneIndex, surface.fog, lit),
-              index,
-              entity,
-              surface.material,
-              surface.fog,
-              true,
-              firstLight,
-              lightCount};
+    const bool lit = touch();
+    const uint64_t key = makeSortKey(m_materials.get(surface.material).sortRank, record.sceneIndex, surface.fog, lit);
     const int deformed = work.deformedSurface[index];
-    if (deformed >= 0) {
-        item.fromWorld = false;
-        item.surface = static_cast<uint32_t>(deformed);
-    }
-    work.items.push_back(item);
+    work.items.push_back({key, deformed >= 0 ? static_cast<uint32_t>(deformed) : index, entity, surface.material,
+                          surface.fog, deformed < 0, lit});
 }
 
 void DrawListBuilder::addBrushModel(ViewWork& work, uint32_t index) {
@@ -163,12 +161,14 @@ void DrawListBuilder::addBrushModel(ViewWork& work, uint32_t index) {
         return;
     const auto lights = work.lights();
     const bool lit = work.settings.dynamicLights && brushModelLit(model, entity, lights);
-    const auto first = static_cast<uint32_t>(work.lightRefs.size());
-    if (lit) work.lightRefs.push_back(0);
     for (int i = 0; i < model.surfaceCount; ++i) {
         const auto surface = static_cast<uint32_t>(model.firstSurface + i);
-        const bool touched = lit && lightTouchesSurface(m_world->surfaces[surface], lights.front());
-        addWorldSurface(work, surface, index, first, touched ? 1 : 0);
+        addWorldSurface(work, surface, index, [&] {
+            std::vector<uint32_t>& touching = m_lights->touching(surface);
+            touching.clear();
+            if (lit && lightTouchesSurface(m_world->surfaces[surface], lights.front())) touching.push_back(0);
+            return !touching.empty();
+        });
     }
 }
 
@@ -184,7 +184,7 @@ void DrawListBuilder::addEntities(ViewWork& work) {
         const int sceneIndex = surface.isPoly ? -1 : entities[surface.entity].sceneIndex;
         const Material& material = m_materials.get(surface.material);
         work.items.push_back({makeSortKey(material.sortRank, sceneIndex, surface.fog, false), static_cast<uint32_t>(i),
-                              surface.entity, surface.material, surface.fog, false, 0, 0});
+                              surface.entity, surface.material, surface.fog, false, false});
     };
     for (size_t i = 0; i < work.geometry.surfaces.size(); ++i)
         if (work.geometry.surfaces[i].isPoly) add(i);

@@ -42,15 +42,17 @@ class DrawListBuilder {
         uint32_t entity;     ///< in ViewGeometry::entities
         MaterialId material; ///< as registered, not remapped
         int fog;
-        bool fromWorld;                  ///< world vertices
-        uint32_t firstLight, lightCount; ///< in m_lightRefs
+        bool fromWorld; ///< world vertices
+        bool lit;
     };
     struct ViewWork; // of one view, in draw_list.cpp
 
     void buildView(ViewWork& work);
     void findDeformed(ViewWork& work);
     void addWorld(ViewWork& work);
-    void addWorldSurface(ViewWork& work, uint32_t surface, uint32_t entity, uint32_t firstLight, uint32_t lightCount);
+    /// `touch` says which lights touch the surface, if it is drawn; true if any.
+    template <typename Touch>
+    void addWorldSurface(ViewWork& work, uint32_t surface, uint32_t entity, const Touch& touch);
     void addEntities(ViewWork& work);
     void addBrushModel(ViewWork& work, uint32_t entity);
     bool surfaceCulled(const ViewWork& work, const WorldSurface& surface, const EntityRecord& entity,
@@ -62,6 +64,7 @@ class DrawListBuilder {
     void appendItemIndices(ViewWork& work, const Item& item);
     uint32_t entityIndex(ViewWork& work, uint32_t entity);
     int fogIndex(ViewWork& work, int fog);
+    bool touchWorldLights(const ViewWork& work, size_t place);
     void appendLights(ViewWork& work, DrawBatch& batch, size_t firstItem, size_t lastItem);
     MaterialId drawnId(MaterialId id) const;
 
@@ -70,7 +73,9 @@ class DrawListBuilder {
     StageTable& m_stages;
     const World* m_world;
     std::unique_ptr<WorldVisibility> m_visibility;
-    std::vector<uint32_t> m_handled; ///< stamp by world surface: once a view, also by brush models
+    std::unique_ptr<SurfaceLights> m_lights;
+    std::vector<uint32_t> m_batchLights; ///< of the batch at hand
+    std::vector<uint32_t> m_handled;     ///< stamp by world surface: once a view, also by brush models
     uint32_t m_stamp = 0;
     size_t m_surfaceCount = 0;
 };

@@ -64,8 +64,10 @@ std::vector<VkVertexInputAttributeDescription> vertexAttributes() {
 }
 
 // Red, green, blue: the original's frame buffer has no alpha, it always reads 1.
-constexpr VkColorComponentFlags kColorOnly =
-    VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT;
+VkColorComponentFlags writeMaskOf(const StateKey& key) {
+    if (key.pass == kPassDepth) return 0;
+    return VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT;
+}
 
 } // namespace
 
@@ -119,6 +121,12 @@ StateKey overlayKey() {
     return key;
 }
 
+StateKey depthKey() {
+    StateKey key;
+    key.pass = kPassDepth;
+    return key;
+}
+
 StateKey skyBoxKey(bool clipped) {
     StateKey key;
     key.depthWrite = false;
@@ -140,8 +148,8 @@ const GraphicsPipeline& PipelineSet::find(const StateKey& key) {
     GraphicsPipelineInfo info;
     info.name = "raster";
     info.vertex = {shaders::vk_raster_vert, vertexConstants};
-    info.fragment = {shaders::vk_raster_frag, constants};
-    info.interface = {{m_frameLayout, m_textureLayout}, sizeof(RasterDraw)};
+    if (key.pass != kPassDepth) info.fragment = {shaders::vk_raster_frag, constants};
+    info.interface = {{m_frameLayout, m_textureLayout}, sizeof(RasterDraw), VK_SHADER_STAGE_VERTEX_BIT};
     info.vertexBindings = {{0, sizeof(Vertex), VK_VERTEX_INPUT_RATE_VERTEX}};
     info.vertexAttributes = vertexAttributes();
     info.depthBias = true; // 0 unless a material asks for an offset
@@ -150,14 +158,15 @@ const GraphicsPipeline& PipelineSet::find(const StateKey& key) {
     info.depthCompare = toVulkan(key.depthFunc);
     info.depthFormat = VK_FORMAT_D32_SFLOAT;
     info.colorFormats = {VK_FORMAT_R8G8B8A8_UNORM};
-    info.blends = {{key.blended, toVulkan(key.source), toVulkan(key.destination), VK_BLEND_OP_ADD, kColorOnly}};
+    info.blends = {{key.blended, toVulkan(key.source), toVulkan(key.destination), VK_BLEND_OP_ADD, writeMaskOf(key)}};
     info.dynamicStates = {VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE, VK_DYNAMIC_STATE_DEPTH_BIAS};
     return m_pipelines.emplace(key, GraphicsPipeline(m_device, info)).first->second;
 }
 
 std::vector<StateKey> PipelineSet::statesOf(const MaterialLibrary& materials, bool clipped) {
-    std::set<StateKey> states = {overlayKey(),          skyBoxKey(false),    lightKey(false, false),
-                                 lightKey(true, false), fogKey(true, false), fogKey(false, false)};
+    std::set<StateKey> states = {
+        depthKey(),          overlayKey(),        skyBoxKey(false), lightKey(false, false), lightKey(true, false),
+        fogKey(true, false), fogKey(false, false)};
     if (clipped)
         states.insert(
             {skyBoxKey(true), lightKey(false, true), lightKey(true, true), fogKey(true, true), fogKey(false, true)});

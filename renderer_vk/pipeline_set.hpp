@@ -26,6 +26,8 @@ StateKey lightKey(bool additive, bool clipped);
 StateKey fogKey(bool depthEqual, bool clipped);
 /// Alpha-blended picture without depth: cinematics.
 StateKey overlayKey();
+/// Depth alone: what hides other things goes first, so that nothing hidden is shaded.
+StateKey depthKey();
 /// Opaque, no depth write: sky boxes.
 StateKey skyBoxKey(bool clipped);
 

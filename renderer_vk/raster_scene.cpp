@@ -116,6 +116,7 @@ void RasterScene::addView(FrameGraph& graph, FrameTargets& targets, const FrameC
     if (!m_builder) return;
     m_offsetFactor = settings.raster.r_offsetFactor;
     m_offsetUnits = settings.raster.r_offsetUnits;
+    m_depthFirst = settings.raster.r_depthFirst != 0;
     const auto first = static_cast<uint32_t>(m_data.views.size());
     m_builder->addScene(frame, scene, settings, m_data);
     recordPass(graph, targets, pass, first, static_cast<uint32_t>(m_data.views.size()) - first);
@@ -191,8 +192,26 @@ void RasterScene::recordView(PassContext& pass, const ViewDraw& view, VkExtent2D
     }
     const VkClearRect area{scissor, 0, 1};
     if (clearCount > 0) vkCmdClearAttachments(pass.commands(), clearCount, clears, 1, &area);
+    if (m_depthFirst) recordDepth(pass.commands(), view);
     for (uint32_t i = 0; i < view.batchCount; ++i)
         recordBatch(pass.commands(), view, m_data.batches[view.firstBatch + i]);
+}
+
+void RasterScene::recordDepth(VkCommandBuffer commands, const ViewDraw& view) {
+    const std::span<const DrawBatch> batches = std::span(m_data.batches).subspan(view.firstBatch, view.batchCount);
+    for (size_t i = 0; i < batches.size();) {
+        DrawBatch run = batches[i++];
+        if (!run.depthFirst) continue;
+        const CullMode cull = m_materials->get(run.material).cull;
+        for (; i < batches.size() && batches[i].depthFirst && batches[i].entity == run.entity &&
+               batches[i].depthRange == run.depthRange && m_materials->get(batches[i].material).cull == cull;
+             ++i)
+            run.indexCount += batches[i].indexCount;
+        RasterDraw constants{};
+        constants.entity = run.entity;
+        constants.pass = kPassDepth;
+        draw(commands, depthKey(), constants, run, false, cull, view);
+    }
 }
 
 void RasterScene::recordBatch(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch) {

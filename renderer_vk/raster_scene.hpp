@@ -54,6 +54,7 @@ class RasterScene {
   private:
     void recordViews(PassContext& pass, FrameTargets targets, uint32_t firstView, uint32_t viewCount);
     void recordView(PassContext& pass, const ViewDraw& view, VkExtent2D extent);
+    void recordDepth(VkCommandBuffer commands, const ViewDraw& view);
     void recordBatch(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch);
     void draw(VkCommandBuffer commands, const StateKey& key, const RasterDraw& constants, const DrawBatch& batch,
               bool polygonOffset, CullMode cull, const ViewDraw& view);
@@ -78,6 +79,7 @@ class RasterScene {
     BufferSlice m_vertexSlice, m_indexSlice, m_stageSlice, m_entitySlice, m_lightSlice, m_fogSlice;
     VkDescriptorSet m_frameSet = VK_NULL_HANDLE;
     uint32_t m_tableStageCount = 0;
+    bool m_depthFirst = false;
     float m_offsetFactor = -1, m_offsetUnits = -2;
     struct BoundState;
     std::unique_ptr<BoundState> m_bound;

@@ -37,20 +37,20 @@ void markLeafs(const World& world, const SceneLight& light, int node, std::vecto
 
 } // namespace
 
-void findWorldLights(const World& world, const VisibleWorld& visible, std::span<const SceneLight> lights,
-                     std::vector<SurfaceLight>& out) {
-    out.clear();
-    std::vector<uint8_t> reached;
+void SurfaceLights::findReached(const World& world, const VisibleWorld& visible, std::span<const SceneLight> lights) {
+    m_reached.clear();
     for (size_t l = 0; l < lights.size(); ++l) {
-        reached.assign(world.bsp.leafs.size(), 0);
-        markLeafs(world, lights[l], world.bsp.nodes.empty() ? -1 : 0, reached);
-        for (size_t i = 0; i < visible.surfaces.size(); ++i) {
-            if (!reached[static_cast<size_t>(visible.surfaceLeaf[i])]) continue;
-            if (lightTouchesSurface(world.surfaces[visible.surfaces[i]], lights[l]))
-                out.emplace_back(static_cast<uint32_t>(i), static_cast<uint32_t>(l));
-        }
+        m_leafs.assign(world.bsp.leafs.size(), 0);
+        markLeafs(world, lights[l], world.bsp.nodes.empty() ? -1 : 0, m_leafs);
+        for (size_t i = 0; i < visible.surfaces.size(); ++i)
+            if (m_leafs[static_cast<size_t>(visible.surfaceLeaf[i])])
+                m_reached.emplace_back(static_cast<uint32_t>(i), static_cast<uint32_t>(l));
     }
-    std::ranges::sort(out);
+    std::ranges::sort(m_reached);
+}
+
+std::span<const std::pair<uint32_t, uint32_t>> SurfaceLights::reaching(size_t place) const {
+    return std::ranges::equal_range(m_reached, place, {}, [](const auto& pair) { return size_t{pair.first}; });
 }
 
 bool brushModelLit(const BspModel& model, const EntityRecord& entity, std::span<const SceneLight> lights) {

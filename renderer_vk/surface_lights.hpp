@@ -10,12 +10,25 @@
 
 namespace q3rt {
 
-/// A surface (position in a caller's list) and a light (index in the view's lights), sorted by surface, then light.
-using SurfaceLight = std::pair<uint32_t, uint32_t>;
+/// Which lights reach the leafs of visible surfaces, and which lights each surface was last found to be touched by.
+///
+/// A surface whose leaf no light reaches any more keeps its lights, as numbers: the lights that then have these numbers
+/// are drawn on it if it lies near enough. The original does so, and a floor lit through its neighbours shows it.
+class SurfaceLights {
+  public:
+    explicit SurfaceLights(size_t surfaceCount)
+        : m_touching(surfaceCount) {}
+    /// For `visible` as the walk found it.
+    void findReached(const World& world, const VisibleWorld& visible, std::span<const SceneLight> lights);
+    /// (place, light) of one place in `visible`, lights ascending.
+    std::span<const std::pair<uint32_t, uint32_t>> reaching(size_t place) const;
+    std::vector<uint32_t>& touching(uint32_t surface) { return m_touching[surface]; }
 
-/// Lights of world surfaces: `visible` as the walk found it.
-void findWorldLights(const World& world, const VisibleWorld& visible, std::span<const SceneLight> lights,
-                     std::vector<SurfaceLight>& out);
+  private:
+    std::vector<uint8_t> m_leafs;                         ///< of the light at hand
+    std::vector<std::pair<uint32_t, uint32_t>> m_reached; ///< sorted
+    std::vector<std::vector<uint32_t>> m_touching;        ///< by world surface
+};
 
 /// May light 0 draw on surfaces of this brush model? The original moves all lights into the model's space to decide
 /// whether any touches the box, but then tests each surface with light 0 alone, where it stands in the world.

@@ -20,10 +20,8 @@ struct DrawListBuilder::ViewWork {
     VisibleWorld visible;
     ViewGeometry geometry;
     std::vector<Item> items;
-    std::vector<SurfaceLight> worldLights; ///< by position in visible.surfaces
-    std::vector<uint32_t> lightRefs;       ///< lists of lights that items point into
-    std::vector<int> entityIndices;        ///< by geometry entity: index in out.entities, -1 not yet
-    std::vector<int> fogIndices;           ///< by fog number, -1 not yet
+    std::vector<int> entityIndices; ///< by geometry entity: index in out.entities, -1 not yet
+    std::vector<int> fogIndices;    ///< by fog number, -1 not yet
     std::vector<CullResult> entityCull;
     std::vector<int> deformedSurface; ///< by world surface: index in geometry.surfaces, -1 drawn as it is
     uint32_t vertexBase = 0;          ///< of geometry.vertices in out.vertices

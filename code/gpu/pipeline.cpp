@@ -11,12 +11,13 @@ Pipeline::Pipeline(Device& device, VkPipelineBindPoint bindPoint, const Pipeline
     : m_device(&device)
     , m_bindPoint(bindPoint)
     , m_pushConstantBytes(interface.pushConstantBytes)
+    , m_pushStages(interface.pushStages)
     , m_name(std::move(name)) {
     if (m_pushConstantBytes > device.capabilities().limits.maxPushConstantsSize)
         throw DeviceError(formatText("pipeline \"%s\" needs %u bytes of push constants; %s has %u", m_name.c_str(),
                                      m_pushConstantBytes, device.capabilities().deviceName.c_str(),
                                      device.capabilities().limits.maxPushConstantsSize));
-    const VkPushConstantRange range{VK_SHADER_STAGE_ALL, 0, m_pushConstantBytes};
+    const VkPushConstantRange range{m_pushStages, 0, m_pushConstantBytes};
     VkPipelineLayoutCreateInfo create{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
     create.setLayoutCount = static_cast<uint32_t>(interface.sets.size());
     create.pSetLayouts = interface.sets.data();
@@ -33,6 +34,7 @@ Pipeline& Pipeline::operator=(Pipeline&& other) noexcept {
     m_layout = std::exchange(other.m_layout, VK_NULL_HANDLE);
     m_handle = std::exchange(other.m_handle, VK_NULL_HANDLE);
     m_pushConstantBytes = std::exchange(other.m_pushConstantBytes, 0);
+    m_pushStages = other.m_pushStages;
     m_name = std::move(other.m_name);
     return *this;
 }
@@ -58,7 +60,7 @@ void Pipeline::pushBytes(VkCommandBuffer commands, std::span<const std::byte> by
     if (bytes.size() > m_pushConstantBytes)
         throw UsageError(formatText("pipeline \"%s\" takes %u bytes of push constants, %zu were given", m_name.c_str(),
                                     m_pushConstantBytes, bytes.size()));
-    vkCmdPushConstants(commands, m_layout, VK_SHADER_STAGE_ALL, 0, static_cast<uint32_t>(bytes.size()), bytes.data());
+    vkCmdPushConstants(commands, m_layout, m_pushStages, 0, static_cast<uint32_t>(bytes.size()), bytes.data());
 }
 
 void Pipeline::finish() { m_device->setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(m_handle), m_name); }

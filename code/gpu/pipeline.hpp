@@ -24,6 +24,7 @@ struct ShaderStage {
 struct PipelineInterface {
     std::vector<VkDescriptorSetLayout> sets;
     uint32_t pushConstantBytes = 0;
+    VkShaderStageFlags pushStages = VK_SHADER_STAGE_ALL; // that read them
 };
 
 class Pipeline {
@@ -55,6 +56,7 @@ class Pipeline {
     VkPipelineLayout m_layout = VK_NULL_HANDLE;
     VkPipeline m_handle = VK_NULL_HANDLE;
     uint32_t m_pushConstantBytes = 0;
+    VkShaderStageFlags m_pushStages = VK_SHADER_STAGE_ALL;
     std::string m_name;
 };
 

@@ -1,7 +1,8 @@
 #pragma once
 // The entities, polys and deformed world surfaces of one view as triangles: animated, deformed, lit, with materials
-// chosen. Both renderers draw the result; nothing here is culled by the view (the rasteriser does that itself).
+// chosen. Both renderers draw the result; only the rasteriser has it culled by its view.
 
+#include <span>
 #include <vector>
 
 #include "scene/deform.hpp"
@@ -63,6 +64,8 @@ struct ViewGeometrySettings {
     int railWidth = 16, railCoreWidth = 6, railSegmentLength = 32;
     bool drawEntities = true;
     bool isPortalView = false, mirrored = false;
+    /// Mesh models wholly behind one of these planes (normals inward) get a record and no geometry. Empty: none.
+    std::span<const Plane> cullPlanes;
     bool deformWorld = true; ///< append deformed copies of world surfaces whose material has deforms
     /// Keep first-person and third-person entities alike (EntityRecord::flags tells them apart): for a tracer whose
     /// camera rays and mirror rays see different ones by instance mask.

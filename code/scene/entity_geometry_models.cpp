@@ -15,6 +15,15 @@ void addTransformedBox(const mat4& worldFromModel, const vec3& mins, const vec3&
     }
 }
 
+/// Is the box wholly behind one of the planes?
+bool isOutside(std::span<const Plane> planes, const Bounds& box) {
+    if (box.empty()) return false;
+    const vec3 centre = (box.mins + box.maxs) * 0.5f, half = (box.maxs - box.mins) * 0.5f;
+    return std::ranges::any_of(planes, [&](const Plane& plane) {
+        return glm::dot(plane.normal, centre) + glm::dot(glm::abs(plane.normal), half) < plane.distance;
+    });
+}
+
 /// Only the first entity of a view that uses an inline model is drawn, as in the original.
 void addInlineModel(const ViewBuild& build, const SceneEntity& entity, int sceneIndex, int inlineModel) {
     if (!build.world || static_cast<size_t>(inlineModel) >= build.world->bsp.models.size()) return;
@@ -97,6 +106,7 @@ void addMesh(const ViewBuild& build, const SceneEntity& entity, int sceneIndex, 
         EntityRecord& of = build.out.entities[record];
         if (!box.empty()) addTransformedBox(of.worldFromModel, box.mins, box.maxs, of.worldBounds);
     }
+    if (isOutside(build.settings.cullPlanes, build.out.entities[record].worldBounds)) return;
     lod.mesh->pose(frames, build.out.bones);
     for (const ModelSurface& source : lod.surfaces) {
         addMeshSurface(build, entity, *lod.mesh, source, record, frames, fog);

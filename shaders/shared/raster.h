@@ -7,6 +7,7 @@ SHARED_BEGIN
 SHARED_CONST kPassStage = 0u; // a material stage
 SHARED_CONST kPassLight = 1u; // a dynamic light over it
 SHARED_CONST kPassFog = 2u;   // fog over it
+SHARED_CONST kPassDepth = 3u; // depth alone, before all
 
 // An entity in one view; the world is one of them.
 struct RasterEntity {

@@ -11,6 +11,7 @@ layout(location = 0) in vec4 inColor;
 layout(location = 1) in vec2 inSt0;
 layout(location = 2) in vec2 inSt1;
 layout(location = 3) in float inClip;
+layout(location = 4) flat in uvec2 inTextures; // equal all over a draw
 layout(location = 0) out vec4 outColor;
 
 // Fixed ids of the texture library.
@@ -18,9 +19,9 @@ const uint kTextureDlight = 3u;
 const uint kTextureFog = 4u;
 
 vec4 stageColor() {
-    vec4 first = texture(textures[stages[draw.stage].unit[0].texture], inSt0);
+    vec4 first = texture(textures[inTextures.x], inSt0);
     if (kCombine == kCombineSingle) return first * inColor;
-    vec4 second = texture(textures[stages[draw.stage].unit[1].texture], inSt1);
+    vec4 second = texture(textures[inTextures.y], inSt1);
     if (kCombine == kCombineMultiply) return first * second * inColor;
     return vec4(min(vec3(1.0), first.rgb * inColor.rgb + second.rgb), first.a * second.a * inColor.a);
 }

@@ -16,6 +16,7 @@ layout(location = 0) out vec4 outColor;
 layout(location = 1) out vec2 outSt0;
 layout(location = 2) out vec2 outSt1;
 layout(location = 3) out float outClip;
+layout(location = 4) flat out uvec2 outTextures;
 invariant gl_Position;
 
 vec3 worldPosition() {
@@ -37,6 +38,7 @@ void generateStage() {
         if (fade == kFadeRgb || fade == kFadeRgba) outColor.rgb = truncateBytes(outColor.rgb * 255.0 * keep);
         if (fade == kFadeAlpha || fade == kFadeRgba) outColor.a = floor(outColor.a * 255.0 * keep) / 255.0;
     }
+    outTextures = uvec2(stages[stage].unit[0].texture, stages[stage].unit[1].texture);
     outSt0 = unitCoordinates(stage, 0u, inPosition, inNormal, inSt, inLightmapSt, eye);
     if (stages[stage].combine != kCombineSingle)
         outSt1 = unitCoordinates(stage, 1u, inPosition, inNormal, inSt, inLightmapSt, eye);
@@ -59,6 +61,7 @@ void main() {
     outSt0 = vec2(0.0);
     outSt1 = vec2(0.0);
     outClip = 1.0;
+    outTextures = uvec2(0u);
     if (kClipped != 0u) {
         vec4 plane = entities[draw.entity].clipPlane;
         outClip = dot(plane.xyz, worldPosition()) - plane.w;
@@ -67,7 +70,7 @@ void main() {
         generateStage();
     } else if (kPass == kPassLight) {
         generateLight();
-    } else {
+    } else if (kPass == kPassFog) {
         outColor = vec4(fogs[draw.fog].color, 1.0);
         outSt0 = fogCoordinates(draw.fog, worldPosition());
     }

@@ -120,6 +120,8 @@ TEST(RasterDraw, MapIsDrawnWithoutValidationMessages) {
         bright += value > 16 ? 1u : 0u;
     EXPECT_GT(bright, first.size() / 4) << "the picture is mostly black";
     EXPECT_EQ(first, second) << "the same frame twice gives two pictures";
+    services.setCvar("r_depthFirst", "0");
+    EXPECT_EQ(first, drawFrame(renderer, services, view, shader)) << "depth first changes the picture";
     EXPECT_NE(services.cvar("q3rt_stats", "", 0).string().find("\"world view\""), std::string::npos);
     for (const std::string& message : renderer.messages())
         ADD_FAILURE() << message;

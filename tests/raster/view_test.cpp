@@ -142,6 +142,35 @@ TEST(RasterPortal, HiddenAndFarSurfacesGiveNoView) {
     EXPECT_TRUE(visible(vec3(300, 0, 0), vec3(-1, 0, 0), 0, true)) << "mirrors have no range";
 }
 
+TEST(RasterLights, SurfacesKeepLightsThatDoNotReachTheirLeafAnyMore) {
+    World world;
+    world.bsp.leafs.resize(2);
+    world.bsp.planes = {{vec3(1, 0, 0), 0}};
+    world.bsp.nodes.resize(1);
+    world.bsp.nodes[0].plane = 0;
+    world.bsp.nodes[0].children[0] = -1; // x > 0
+    world.bsp.nodes[0].children[1] = -2;
+    VisibleWorld visible;
+    visible.surfaces = {0, 1};
+    visible.surfaceLeaf = {0, 1};
+    SurfaceLights lights(2);
+    const auto lightAt = [](float x) {
+        SceneLight light;
+        light.origin = vec3(x, 0, 0);
+        light.radius = 100;
+        return light;
+    };
+    const std::vector<SceneLight> both = {lightAt(300), lightAt(0)};
+    lights.findReached(world, visible, both);
+    EXPECT_EQ(lights.reaching(0).size(), 2u);
+    ASSERT_EQ(lights.reaching(1).size(), 1u);
+    EXPECT_EQ(lights.reaching(1)[0].second, 1u);
+    lights.touching(1) = {1};
+    lights.findReached(world, visible, std::span(both).first(1));
+    EXPECT_TRUE(lights.reaching(1).empty());
+    EXPECT_EQ(lights.touching(1), std::vector<uint32_t>{1});
+}
+
 TEST(RasterSky, CoverageIsRoundedOutwardToBlocks) {
     SkyCoverage coverage;
     coverage.clear();
