@@ -68,6 +68,11 @@ void TraceRenderer::describeView(const SceneView& scene, const ViewBuffers& buff
     out.left = scene.view.axis[1] * (tanX * part.x / whole.x);
     out.up = scene.view.axis[2] * (tanY * part.y / whole.y);
     out.forwardUnit = scene.view.axis[0];
+    if (m_settings.rt_dof && m_settings.rt_aperture > 0) {
+        out.flags |= kFrameLens;
+        out.lens = 0.5f * m_settings.rt_aperture / vec2(glm::length(out.left), glm::length(out.up));
+        out.lensTurn = out.lens / m_settings.rt_focallength;
+    }
     const Bounds& bounds = m_scene->world()->bounds;
     // From the eye to the farthest corner, wherever the eye is.
     const vec3 reach = glm::max(glm::abs(bounds.mins - out.eye), glm::abs(bounds.maxs - out.eye));
@@ -102,8 +107,9 @@ std::vector<uint32_t> TraceRenderer::settingsKey() const {
     std::vector<uint32_t> key;
     appendBits(key, std::array{m_settings.rt_illumination, m_settings.rt_cullLights, m_settings.rt_softshadows,
                                m_settings.rt_blueNoise, m_settings.rt_antialiasing, m_settings.rt_seed,
-                               m_settings.rt_tonemap, m_settings.rt_linear});
-    appendBits(key, std::array{m_settings.rt_ambient, m_settings.rt_exposure, m_settings.rt_minLight});
+                               m_settings.rt_tonemap, m_settings.rt_linear, m_settings.rt_dof});
+    appendBits(key, std::array{m_settings.rt_ambient, m_settings.rt_exposure, m_settings.rt_minLight,
+                               m_settings.rt_aperture, m_settings.rt_focallength});
     return key;
 }
 

@@ -16,6 +16,7 @@ struct Reflection {
     vec3 position;
     vec3 normal;
     float t;
+    vec2 onLens;
 };
 
 struct Picture {
@@ -23,6 +24,8 @@ struct Picture {
     RtPixel pixel;
     float weightSum; // of the layers that take light
     vec2 at;         // where the camera ray goes through the picture, pixels
+    vec2 lens;       // where it begins on the lens, unit disc
+    vec2 onLens;     // the same of this part of it: the near depth range has no lens
     uint turns;      // of the ray so far
     bool reflected;  // `reflection` has been used
     Reflection reflection;
@@ -37,7 +40,7 @@ void followLayer(inout Picture picture, CameraRay ray, SurfacePoint point, Surfa
     if ((rtFrame.flags & kFrameHistory) == 0u)
         return;
     picture.followed = true;
-    CameraRay straight = makeCameraRay(picture.at);
+    CameraRay straight = makeCameraRay(picture.at, picture.onLens);
     picture.guide.position = picture.turns == 0u ? point.hit.position : straight.origin + straight.direction * place.t;
     picture.guide.normal = normal;
     picture.past = findPast(picture.guide, place, point, straight, ray);

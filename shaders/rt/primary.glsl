@@ -26,7 +26,7 @@ bool addReflection(inout Picture picture, inout CameraRay ray, SurfacePoint poin
                                  water && !point.frontFace);
     if (picture.turns == 0u && !picture.reflected) {
         picture.reflected = true;
-        picture.reflection = Reflection(picture.passed * share, point.hit.position, normal, t);
+        picture.reflection = Reflection(picture.passed * share, point.hit.position, normal, t, picture.onLens);
         picture.passed *= 1.0 - share;
         return false;
     }
@@ -155,8 +155,8 @@ void addRay(inout Picture picture, CameraRay ray, bool near, uint part, uvec4 ke
         } else if (view.look == kLookLayers) {
             continue;
         } else if (near) {
-            ray.solidMask = kMaskSolid;
-            ray.layerMask = kMaskLayer;
+            picture.onLens = picture.lens;
+            ray = makeCameraRay(picture.at, picture.onLens);
         } else if ((rtFrame.flags & kFrameSkySurfaces) != 0u) {
             view.look = kLookSky;
             view.from = ray.from;
@@ -177,7 +177,7 @@ void addRay(inout Picture picture, CameraRay ray, bool near, uint part, uvec4 ke
 void keepPlace(Picture picture, uvec2 pixelPosition)
 {
     if (!picture.followed) {
-        vec3 direction = makeCameraRay(picture.at).direction;
+        vec3 direction = makeCameraRay(picture.at, picture.onLens).direction;
         picture.guide = RtGuide(rtFrame.eye + direction * rtFrame.farQu, kNoNormal);
         picture.past = RtPast(rtFrame.previousEye + direction * rtFrame.farQu, kNoNormal, 0.0);
     }
@@ -188,22 +188,26 @@ void keepPlace(Picture picture, uvec2 pixelPosition)
 void primaryPixel(uvec2 pixelPosition)
 {
     uvec4 key = randomKey(pixelPosition);
+    vec4 numbers = (rtFrame.flags & (kFrameAntialiasing | kFrameLens)) != 0u ? sampleNumbers(key, kDimensionLens)
+                                                                              : vec4(0.5);
     vec2 inPixel = vec2(0.5);
     if ((rtFrame.flags & kFrameAntialiasing) != 0u)
-        inPixel = (rtFrame.flags & kFrameSharedJitter) != 0u ? rtFrame.jitter : sampleNumbers(key, kDimensionLens).xy;
+        inPixel = (rtFrame.flags & kFrameSharedJitter) != 0u ? rtFrame.jitter : numbers.xy;
     Picture picture;
     picture.at = vec2(pixelPosition) + inPixel;
-    CameraRay ray = makeCameraRay(picture.at);
+    picture.lens = sampleDisc(numbers.z, numbers.w);
     picture.passed = vec3(1.0);
     picture.weightSum = 0.0;
     picture.followed = false;
     picture.turns = 0u;
     picture.reflected = false;
-    picture.reflection = Reflection(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
+    picture.reflection = Reflection(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, vec2(0.0));
     picture.pixel = RtPixel(vec3(0.0), 0u, vec3(0.0), vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0), vec3(0.0),
                             vec3(0.0), packKeyPixel(pixelPosition), rtFrame.frame, 0u, 0u, 0u);
     bool near = (rtFrame.flags & kFrameNearEntities) != 0u;
     uint part = near ? 0u : 1u;
+    picture.onLens = near ? vec2(0.0) : picture.lens;
+    CameraRay ray = makeCameraRay(picture.at, picture.onLens);
     // Once for the camera ray, once more for a reflection of it.
     for (;;) {
         addRay(picture, ray, near, part, key);
@@ -212,7 +216,8 @@ void primaryPixel(uvec2 pixelPosition)
         picture.passed = picture.reflection.passed;
         picture.reflection.passed = vec3(0.0);
         picture.turns = 1u;
-        ray = makeCameraRay(picture.at);
+        picture.onLens = picture.reflection.onLens;
+        ray = makeCameraRay(picture.at, picture.onLens);
         turnAtPlane(ray, picture.reflection.position, picture.reflection.normal, picture.reflection.t);
         near = false;
         part = kReflectionPart;

@@ -11,7 +11,7 @@
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer PortalTable { RtPortal at[]; };
 
 struct CameraRay {
-    vec3 origin;     // the eye, or its image behind mirrors and portals
+    vec3 origin;     // the eye, its lens's point, or their images behind mirrors and portals
     vec3 direction;  // unit
     vec3 directionX; // of the pixels to the right and below
     vec3 directionY;
@@ -21,15 +21,19 @@ struct CameraRay {
     uint layerMask;
 };
 
-CameraRay makeCameraRay(vec2 at)
+// The ray of a thin lens (Cook, Porter, Carpenter 1984, "Distributed Ray Tracing"): from a point of the lens through
+// the one that all of the lens shows sharp. `at`: in the picture, pixels; `onLens`: in the unit disc.
+CameraRay makeCameraRay(vec2 at, vec2 onLens)
 {
     vec2 size = vec2(rtFrame.size);
     CameraRay ray;
-    ray.origin = rtFrame.eye;
-    ray.direction = cameraDirection(rtFrame.forward, rtFrame.left, rtFrame.up, at / size);
+    vec2 aside = rtFrame.lens * onLens, turn = rtFrame.lensTurn * onLens;
+    vec3 forward = rtFrame.forward - rtFrame.left * turn.x - rtFrame.up * turn.y;
+    ray.origin = rtFrame.eye + rtFrame.left * aside.x + rtFrame.up * aside.y;
+    ray.direction = cameraDirection(forward, rtFrame.left, rtFrame.up, at / size);
     vec2 right = vec2(rtFrame.footprint, 0.0), down = vec2(0.0, rtFrame.footprint);
-    ray.directionX = cameraDirection(rtFrame.forward, rtFrame.left, rtFrame.up, (at + right) / size);
-    ray.directionY = cameraDirection(rtFrame.forward, rtFrame.left, rtFrame.up, (at + down) / size);
+    ray.directionX = cameraDirection(forward, rtFrame.left, rtFrame.up, (at + right) / size);
+    ray.directionY = cameraDirection(forward, rtFrame.left, rtFrame.up, (at + down) / size);
     ray.forward = rtFrame.forward;
     ray.from = 0.0;
     ray.solidMask = kMaskSolid;

@@ -144,6 +144,7 @@ SHARED_CONST kFrameHistory = 0x200u;     // guides and pasts are wanted
 SHARED_CONST kFrameKeepRadiance = 0x400u; // the composite's radiance is wanted
 SHARED_CONST kFrameLinear = 0x800u;       // colours are decoded to light
 SHARED_CONST kFrameBlueNoise = 0x1000u;   // rt_blueNoise
+SHARED_CONST kFrameLens = 0x2000u;        // the eye has a lens of some size
 SHARED_CONST kFrameCountWork = 0x10000u;  // into RtReport::work
 
 struct RtFrame {
@@ -184,6 +185,8 @@ struct RtFrame {
     float farQu; // longer than any line inside the map
     vec3 left;   // scaled by the tangent of half the horizontal field of view
     vec3 up; // scaled, vertical
+    vec2 lens; // its radius in lengths of `left` and `up`; 0: the eye is a point
+    vec2 lensTurn; // the same over the distance along forwardUnit that is sharp
     uint seed;
     SHARED_UVEC2 size; // pixels
     uint sampleNumber; // of this view: 0 starts a new mean
