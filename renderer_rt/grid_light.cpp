@@ -24,11 +24,6 @@ using uint = uint32_t;
 
 /// Shadow rays of a cell to the lights of its row. The estimate is unbiased with any number.
 constexpr uint32_t kRowRays = 32;
-/// Directions of a cell: its own, the opposite one, four across.
-constexpr size_t kWays = 6;
-
-using Irradiance = std::array<vec3, kWays>;
-
 class GridExplainer {
   public:
     GridExplainer(const World& world, const MaterialLibrary& materials, LightTables& tables)
@@ -48,9 +43,10 @@ class GridExplainer {
         m_tracer = std::make_unique<CpuTracer>(positions);
     }
 
-    void explain(size_t index, std::mt19937& random) const {
+    GridIrradiance explain(size_t index, std::mt19937& random) const {
+        GridIrradiance explained{};
         RtGridCell& cell = m_tables.grid[index];
-        if (cell.valid == 0) return;
+        if (cell.valid == 0) return explained;
         const float length = glm::length(cell.direction);
         const Frame frame = frameAround(length > 0.0f ? cell.direction / length : vec3(0, 0, 1));
         const vec3 point = pointOf(index);
@@ -58,10 +54,10 @@ class GridExplainer {
         const RtLightRow& row = cluster >= 0 && cluster < m_world.bsp.clusterCount
                                     ? m_tables.rows.ofCluster(static_cast<size_t>(cluster))
                                     : m_tables.rows.outside();
-        Irradiance explained{};
         addRow(point, row, frame, random, explained);
         if (row.seesSky != 0) cell.sunSeen = addSuns(point, frame, explained);
         takeAway(explained, cell);
+        return explained;
     }
 
   private:
@@ -73,16 +69,16 @@ class GridExplainer {
     }
 
     /// Light that comes along a line, as irradiance across it.
-    static void add(const vec3& flux, const vec3& way, const Frame& frame, Irradiance& sum) {
+    static void add(const vec3& flux, const vec3& way, const Frame& frame, GridIrradiance& sum) {
         const vec3 direction = glm::normalize(way);
-        const vec3 ways[kWays] = {frame.normal,   -frame.normal,   frame.tangent,
-                                  -frame.tangent, frame.bitangent, -frame.bitangent};
-        for (size_t k = 0; k < kWays; ++k)
+        const vec3 ways[kGridWays] = {frame.normal,   -frame.normal,   frame.tangent,
+                                      -frame.tangent, frame.bitangent, -frame.bitangent};
+        for (size_t k = 0; k < kGridWays; ++k)
             sum[k] += flux * std::max(0.0f, dot(ways[k], direction));
     }
 
     void addRow(const vec3& point, const RtLightRow& row, const Frame& frame, std::mt19937& random,
-                Irradiance& sum) const {
+                GridIrradiance& sum) const {
         if (row.facing == 0) return;
         std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
         const auto start = static_cast<uint32_t>(random());
@@ -121,7 +117,7 @@ class GridExplainer {
     }
 
     /// Returns the share of the suns' light that arrives.
-    float addSuns(const vec3& point, const Frame& frame, Irradiance& sum) const {
+    float addSuns(const vec3& point, const Frame& frame, GridIrradiance& sum) const {
         float all = 0, arrived = 0;
         for (const RtLight& sun : m_tables.others) {
             CpuHit hit;
@@ -136,7 +132,7 @@ class GridExplainer {
     /// The cell says irradiance = ambient + directed x max(0, cosine with its direction). What is left of that, by
     /// channel: along the direction what is not explained there, elsewhere no more than is not explained across and
     /// behind. Never below 0.
-    static void takeAway(const Irradiance& explained, RtGridCell& cell) {
+    static void takeAway(const GridIrradiance& explained, RtGridCell& cell) {
         const vec3 around = (explained[1] + explained[2] + explained[3] + explained[4] + explained[5]) / 5.0f;
         const vec3 along = glm::max(cell.ambient + cell.directed - explained[0], vec3(0.0f));
         cell.ambient = glm::min(glm::max(cell.ambient - around, vec3(0.0f)), along);
@@ -152,8 +148,9 @@ class GridExplainer {
 
 } // namespace
 
-void explainGrid(const World& world, const MaterialLibrary& materials, LightTables& tables) {
-    if (tables.grid.empty()) return;
+std::vector<GridIrradiance> explainGrid(const World& world, const MaterialLibrary& materials, LightTables& tables) {
+    std::vector<GridIrradiance> explained(tables.grid.size());
+    if (tables.grid.empty()) return explained;
     const GridExplainer explainer(world, materials, tables);
     const size_t threadCount = std::max(1u, std::thread::hardware_concurrency());
     const size_t share = (tables.grid.size() + threadCount - 1) / threadCount;
@@ -163,27 +160,43 @@ void explainGrid(const World& world, const MaterialLibrary& materials, LightTabl
             const size_t end = std::min(tables.grid.size(), (t + 1) * share);
             for (size_t i = t * share; i < end; ++i) {
                 std::mt19937 random(static_cast<unsigned>(i)); // by cell: the same grid on any number of cores
-                explainer.explain(i, random);
+                explained[i] = explainer.explain(i, random);
             }
         });
     for (std::thread& thread : threads)
         thread.join();
+    return explained;
 }
 
-void limitGrid(std::vector<RtGridCell>& grid, const vec3& mean) {
+void limitGrid(std::vector<RtGridCell>& grid, const vec3& mean, const vec3& ambient) {
     dvec3 sum(0);
     size_t count = 0;
-    for (const RtGridCell& cell : grid) {
+    for (RtGridCell& cell : grid) {
         if (cell.valid == 0) continue;
+        cell.ambient = glm::max(cell.ambient - ambient, vec3(0.0f));
         sum += dvec3(cell.ambient) + 0.25 * dvec3(cell.directed); // the mean of max(0, cosine) over all directions
         ++count;
     }
+    const vec3 bounced = glm::max(mean - ambient, vec3(0.0f));
     vec3 scale(1.0f);
     for (int c = 0; c < 3; ++c)
-        if (sum[c] > 0) scale[c] = std::min(1.0f, static_cast<float>(mean[c] * static_cast<double>(count) / sum[c]));
+        if (sum[c] > 0) scale[c] = std::min(1.0f, static_cast<float>(bounced[c] * static_cast<double>(count) / sum[c]));
     for (RtGridCell& cell : grid) {
-        cell.ambient *= scale;
+        cell.ambient = scale * cell.ambient + ambient;
         cell.directed *= scale;
+    }
+}
+
+void raiseGrid(std::vector<RtGridCell>& grid, const std::vector<GridIrradiance>& explained, const vec3& floor) {
+    for (size_t i = 0; i < grid.size(); ++i) {
+        RtGridCell& cell = grid[i];
+        if (cell.valid == 0) continue;
+        vec3 lacking(0.0f);
+        for (size_t k = 0; k < kGridWays; ++k) {
+            const vec3 given = explained[i][k] + cell.ambient + (k == 0 ? cell.directed : vec3(0.0f));
+            lacking += glm::max(floor - given, vec3(0.0f));
+        }
+        cell.ambient += lacking / static_cast<float>(kGridWays);
     }
 }
 

@@ -2,15 +2,27 @@
 // What of the map's light grid the extracted lights explain, so that no light counts twice: the directed part of a cell
 // loses what they give there, shadows included. What stays is the light that was lost with the map's source.
 
+#include <array>
+
 #include "renderer_rt/world_lights.hpp"
 
 namespace q3rt {
 
-/// Changes `directed` and sets `sunSeen` of every cell of `tables.grid`.
-void explainGrid(const World& world, const MaterialLibrary& materials, LightTables& tables);
+/// Directions of a cell: its own, the opposite one, four across.
+inline constexpr size_t kGridWays = 6;
+/// Irradiance of a surface that faces them, luxel units.
+using GridIrradiance = std::array<vec3, kGridWays>;
 
-/// Darkens what stays where its mean is above that of the light that it stands for, channel by channel: the grid's
-/// cells are coarse, and some compilers made it brighter than the lightmap. `mean`: irradiance, luxel units.
-void limitGrid(std::vector<RtGridCell>& grid, const vec3& mean);
+/// Changes `directed` and sets `sunSeen` of every cell of `tables.grid`. Returns what the lights give, by cell.
+std::vector<GridIrradiance> explainGrid(const World& world, const MaterialLibrary& materials, LightTables& tables);
+
+/// What stays is light that is everywhere (`ambient`) and bounces. Darkens the bounces where their mean is above that
+/// of the light that they stand for, channel by channel: the grid's cells are coarse, and some compilers made it
+/// brighter than the lightmap. `mean` of both: irradiance, luxel units. The grid of some compilers has no light that
+/// is everywhere; here every cell gets it, once.
+void limitGrid(std::vector<RtGridCell>& grid, const vec3& mean, const vec3& ambient);
+
+/// Adds to each cell what its directions lack of the least irradiance that the bake let a surface have, mean over them.
+void raiseGrid(std::vector<RtGridCell>& grid, const std::vector<GridIrradiance>& explained, const vec3& floor);
 
 } // namespace q3rt

@@ -183,8 +183,9 @@ WorldLights::WorldLights(Device& device, Uploader& uploader, const World& world,
                          const LightSet& lights, const TextureLibrary& textures)
     : m_animation(materials, textures) {
     LightTables tables = buildLightTables(world, materials, lights, m_animation);
-    explainGrid(world, materials, tables);
-    if (lights.indirect) limitGrid(tables.grid, *lights.indirect);
+    const std::vector<GridIrradiance> explained = explainGrid(world, materials, tables);
+    if (lights.indirect) limitGrid(tables.grid, *lights.indirect, lights.ambient);
+    raiseGrid(tables.grid, explained, lights.floor);
     m_others = tables.others;
     for (size_t i = 0; i < lights.triangles.size(); ++i) {
         const TriangleLight& light = lights.triangles[i];

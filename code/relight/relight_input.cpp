@@ -23,8 +23,16 @@ float findCompensation(const Bsp& bsp) {
     return brightest < kSaturatedLuxel && brightest >= kDarkestBright ? 255.0f / brightest : 1.0f;
 }
 
-vec3 findFloor(const World& world, float compensation) {
-    return vec3(world.entities.empty() ? 0 : world.entities[0].number("_minlight", 0) / compensation);
+/// Light of the worldspawn, in its colour: `_minlight`, `ambient`, luxel units before the bake was darkened.
+vec3 worldLight(const World& world, std::initializer_list<std::string_view> keys) {
+    if (world.entities.empty()) return vec3(0);
+    const MapEntity& spawn = world.entities[0];
+    const vec3 color = glm::max(spawn.vector("_color").value_or(vec3(1)), vec3(0));
+    const float largest = largestOf(color);
+    for (const std::string_view key : keys)
+        if (const float value = spawn.number(key, 0); value > 0)
+            return value * (largest > 0 ? color / largest : vec3(1));
+    return vec3(0);
 }
 
 } // namespace
@@ -36,7 +44,8 @@ RelightInput::RelightInput(const World& world, const MaterialLibrary& materials,
     , kindColumns(traceEmitters(scene, scene.receivers))
     , eyes(openEyes(scene))
     , compensation(findCompensation(world.bsp))
-    , floor(findFloor(world, compensation))
+    , floor(worldLight(world, {"_minlight"}) / compensation)
+    , ambient(worldLight(world, {"_ambient", "ambient"}))
     , fingerprint(lightmapFingerprint(world.bsp)) {
     std::vector<LightColumn> skies = rays.skyColumns(scene);
     for (size_t k = 0; k < skies.size(); ++k)
@@ -66,7 +75,7 @@ void RelightInput::findAmbientLimit() {
     if (values.empty()) return;
     const auto darkest = values.begin() + static_cast<std::ptrdiff_t>(values.size() / kDarkestOneIn);
     std::nth_element(values.begin(), darkest, values.end());
-    ambientLimit = *darkest;
+    ambientLimit = std::max(*darkest, largestOf(ambient));
 }
 
 vec3 RelightInput::luxelOf(const vec3& irradiance) const {
@@ -98,6 +107,9 @@ LostLights RelightInput::scripted() const {
         auto& list = kind.type == EmitterKind::Type::SkyDome ? lights.skyLights : lights.surfaceLights;
         list.push_back({kind.material, kind.radiosity / radiosityOfValue(kind.type), kind.color});
     }
+    lights.floor = compensation * floor;
+    lights.ambientValue = largestOf(ambient);
+    if (lights.ambientValue > 0) lights.ambientColor = ambient / lights.ambientValue;
     lights.suns = scene.lights.suns;
     lights.points = scene.lights.points;
     return lights;

@@ -30,8 +30,9 @@ struct RelightInput {
     std::vector<bool> isShown; ///< by patch: somebody may see its luxels
     /// Irradiance over luxel: above 1 on maps that were compiled darker (their brightest luxel says so).
     float compensation = 1;
-    vec3 floor{0};           ///< no luxel is below it (_minlight), as the map has it
-    float ambientLimit = 0;  ///< what the darkest luxels leave for light that is everywhere
+    vec3 floor{0};           ///< no luxel is below it (_minlight), as the lightmap has it
+    vec3 ambient{0};         ///< light that is everywhere, as the map says (ambient)
+    float ambientLimit = 0;  ///< the most of that: what the darkest luxels leave, or what the map says
     double price = 0;        ///< of a unit of intensity, in units of the fit's cost
     std::string fingerprint; ///< of the lightmap
 

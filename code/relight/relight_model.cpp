@@ -173,6 +173,7 @@ LostLights RelightModel::lights() const {
     lights.lightmap = m_input.fingerprint;
     lights.compensate = m_input.compensation;
     lights.bounce = static_cast<float>(m_bounceScale);
+    lights.floor = m_input.compensation * m_input.floor;
     const vec3 ambient = m_fit.strength(m_ambientSource);
     lights.ambientValue = largestOf(ambient);
     if (lights.ambientValue > 0) lights.ambientColor = ambient / lights.ambientValue;

@@ -32,6 +32,10 @@ std::string pair(std::string_view key, const std::string& value) {
 
 std::string color(const vec3& c) { return numbers({c.x, c.y, c.z}, 2); }
 
+std::string floorText(const vec3& floor) {
+    return floor == vec3(floor.x) ? numbers({floor.x}, 4) : numbers({floor.x, floor.y, floor.z}, 4);
+}
+
 std::string wholeUnits(const vec3& point) {
     const vec3 whole = glm::round(point) + 0.0f; // no -0
     return formatText("%.0f %.0f %.0f", double(whole.x), double(whole.y), double(whole.z));
@@ -160,7 +164,11 @@ class Reader {
             m_lights.stage = static_cast<size_t>(std::max(0.0f, v[0]));
             m_lights.budget = static_cast<size_t>(std::max(0.0f, v[1]));
         } else if (key == "ambient") {
-            m_lights.ambientValue = given(1, 1)[0];
+            m_lights.ambientValue = std::max(0.0f, given(1, 1)[0]);
+        } else if (key == "_minlight") {
+            const std::vector<float> v = given(1, 3);
+            if (v.size() == 2) fail("_minlight has one number, or three");
+            m_lights.floor = glm::max(v.size() == 3 ? vec3(v[0], v[1], v[2]) : vec3(v[0]), vec3(0));
         } else if (keyword == "q3map_surfacelight" || keyword == "q3map_skylight") {
             if (space == std::string_view::npos) fail("no shader after " + std::string(keyword));
             const std::vector<float> v = given(4, 4);
@@ -202,6 +210,7 @@ std::string formatLostLights(const LostLights& lights, std::string_view map) {
     if (lights.ambientValue > 0)
         text += pair("ambient", numbers({lights.ambientValue}, 3)) + " " + pair("_color", color(lights.ambientColor)) +
                 "\n";
+    if (lights.floor != vec3(0)) text += pair("_minlight", floorText(lights.floor)) + "\n";
     for (const auto& [keyword, list] :
          {std::pair("q3map_surfacelight ", &lights.surfaceLights), {"q3map_skylight ", &lights.skyLights}})
         for (const LostLights::Strength& strength : *list)
@@ -268,6 +277,8 @@ void applyLostLights(const LostLights& lost, const World& world, const MaterialL
     std::erase_if(lights.skies, [](const SkyLight& sky) { return !(sky.radiosity > 0); });
     addLostSkies(world, materials, surfaceLights, scale, lights);
     if (lost.indirect) lights.indirect = scale * *lost.indirect;
+    lights.ambient = scale * lost.ambientValue * lost.ambientColor;
+    lights.floor = scale * lost.floor;
     lights.suns = lost.suns;
     lights.points = lost.points;
     for (SunLight& sun : lights.suns)

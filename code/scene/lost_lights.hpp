@@ -26,8 +26,9 @@ struct LostLights {
     size_t budget = 0;    ///< of that work: lights that it may find
     /// Mean over the map's luxels of light that comes by bounces or is everywhere; none: not known.
     std::optional<vec3> indirect;
-    float ambientValue = 0; ///< the same everywhere; the renderer has it from the light grid
+    float ambientValue = 0; ///< the same everywhere
     vec3 ambientColor{1};
+    vec3 floor{0}; ///< no luxel is below it
     std::vector<Strength> surfaceLights, skyLights;
     std::vector<SunLight> suns;     ///< all that the map has
     std::vector<PointLight> points; ///< all that the map has

@@ -20,6 +20,7 @@ LostLights someLights() {
     lights.indirect = vec3(3, 2, 1);
     lights.ambientValue = 7;
     lights.ambientColor = {1, 0.5f, 0.25f};
+    lights.floor = vec3(12);
     lights.surfaceLights.push_back({"textures/a/lamp", 400, {1, 0.8f, 0.6f}});
     lights.skyLights.push_back({"textures/skies/x", 90, vec3(1)});
     lights.suns.push_back({glm::normalize(vec3(1, -2, 3)), vec3(80, 60, 40), 0.05f});
@@ -37,6 +38,7 @@ TEST(LostLights, TextIsReadBack) {
     EXPECT_EQ(read.indirect, vec3(3, 2, 1));
     EXPECT_FLOAT_EQ(read.ambientValue, 7);
     EXPECT_EQ(read.ambientColor, lights.ambientColor);
+    EXPECT_EQ(read.floor, lights.floor);
     EXPECT_EQ(read.stage, 0u);
     ASSERT_EQ(read.surfaceLights.size(), 1u);
     EXPECT_EQ(read.surfaceLights[0].material, "textures/a/lamp");
@@ -85,6 +87,7 @@ TEST(LostLights, DamageIsNamedWithItsLine) {
         {"{\n\"light\" \"1e30\" }", "line 2", "up to 1e9"},
         {"{\n\"_color\" \"1 -1 1\" }", "line 2", "below 0"},
         {"{\n\"_compensate\" \"0\" }", "line 2", "above 0"},
+        {"{\n\"_minlight\" \"1 2\" }", "line 2", "one number, or three"},
         {"{\n\"q3map_surfacelight\" \"1 1 1 1\" }", "line 2", "no shader"},
         {"{\n\"q3map_sun\" \"1 1 1\" }", "line 2", "6 numbers"},
         {"{ }\n{ \"classname\" \"light\" \"origin\" \"0 0 0\"\n\"target\" \"t1\" }\n", "line 2", "targetname 't1'"},
@@ -130,6 +133,8 @@ TEST(LostLights, ReplaceWhatScriptsSay) {
     EXPECT_LT(changed, lights.triangles.size());
     ASSERT_TRUE(lights.indirect);
     EXPECT_NEAR(lights.indirect->x, 3 / 2.5, 1e-5);
+    EXPECT_NEAR(lights.ambient.y, 0.5 * 7 / 2.5, 1e-5);
+    EXPECT_NEAR(lights.floor.x, 12 / 2.5, 1e-5);
     ASSERT_EQ(lights.points.size(), 2u);
     EXPECT_NEAR(lights.points[0].intensity.x, 7500 * 300 / 2.5, 1);
     ASSERT_EQ(lights.suns.size(), 1u);

@@ -81,6 +81,20 @@ TEST_F(LostLightTest, IsSwitchedOffAndOn) {
     EXPECT_NEAR(radiance(), radianceOfPoint(100), 0.01 * radianceOfPoint(100));
 }
 
+TEST_F(LostLightTest, LightThatIsEverywhereAndTheFloorReachThePicture) {
+    const auto file = [](const std::string& keys) {
+        return "{ \"classname\" \"worldspawn\" \"_indirect\" \"20 20 20\" \"ambient\" \"20\" " + keys +
+               "\"q3map_surfacelight textures/baseq3test/light_square\" \"0 1 1 1\" }\n";
+    };
+    m_game.addText(kFile, file(""));
+    start("1");
+    m_harness->set("rt_ambient", "1");
+    EXPECT_NEAR(radiance(), kTestWallAlbedo * 20 / 63.75, 1e-3);
+    m_game.addText(kFile, file("\"_minlight\" \"32\" "));
+    ASSERT_TRUE(m_harness->engine().runCommand({"rt_reloadLights"}));
+    EXPECT_NEAR(radiance(), kTestWallAlbedo * 32 / 63.75, 1e-3) << "the floor takes in what is there";
+}
+
 TEST_F(LostLightTest, DamagedItIsLeftOut) {
     m_game.addText(kFile, lightText(100) + "{ \"classname\" \"light\" }");
     start("1");
@@ -120,13 +134,44 @@ TEST(LimitGrid, OnlyDarkensDownToTheMean) {
     }
     grid[2].ambient = vec3(1000); // in a wall
     std::vector<RtGridCell> limited = grid;
-    limitGrid(limited, vec3(5, 100, 1)); // the mean is (10 + 20) / 2 + 20 / 4 in red, a fifth of that in green
+    limitGrid(limited, vec3(5, 100, 1), vec3(0)); // the mean is (10 + 20) / 2 + 20 / 4 in red, a fifth of that in green
     EXPECT_NEAR(limited[0].ambient.x, 10 * 5.0 / 20.0, 1e-5);
     EXPECT_NEAR(limited[1].ambient.x, 20 * 5.0 / 20.0, 1e-5);
     EXPECT_NEAR(limited[1].directed.x, 20 * 5.0 / 20.0, 1e-5);
     EXPECT_EQ(limited[1].ambient.y, grid[1].ambient.y);
     EXPECT_EQ(limited[0].directed.y, grid[0].directed.y);
     EXPECT_EQ(limited[0].ambient.z, 0);
+}
+
+TEST(LimitGrid, LightThatIsEverywhereCountsOnce) {
+    std::vector<RtGridCell> grid(2);
+    grid[0].valid = grid[1].valid = 1;
+    grid[0].ambient = vec3(30, 4, 0); // the third channel's grid has nothing of it
+    grid[1].ambient = vec3(10, 4, 0);
+    limitGrid(grid, vec3(15, 15, 15), vec3(10, 10, 15));
+    EXPECT_NEAR(grid[0].ambient.x, 10 + 20 * 5.0 / 10.0, 1e-5); // bounces: 20 and 0, of which the mean may be 5
+    EXPECT_NEAR(grid[1].ambient.x, 10, 1e-5);
+    for (const RtGridCell& cell : grid) {
+        EXPECT_NEAR(cell.ambient.y, 10, 1e-5);
+        EXPECT_NEAR(cell.ambient.z, 15, 1e-5);
+    }
+}
+
+TEST(RaiseGrid, GivesWhatLacks) {
+    std::vector<RtGridCell> grid(3);
+    grid[0].valid = grid[1].valid = 1;
+    grid[0].ambient = vec3(4);
+    grid[0].directed = vec3(6);
+    grid[1].ambient = vec3(25);
+    const GridIrradiance half = {vec3(1), vec3(0), vec3(2), vec3(30), vec3(0), vec3(0)};
+    std::vector<RtGridCell> raised = grid;
+    raiseGrid(raised, {half, half, half}, vec3(20, 0, 20));
+    // Given: 11, 4, 6, 34, 4, 4.
+    EXPECT_NEAR(raised[0].ambient.x, 4 + (9 + 16 + 14 + 0 + 16 + 16) / 6.0, 1e-5);
+    EXPECT_EQ(raised[0].ambient.y, 4);
+    EXPECT_EQ(raised[0].directed, grid[0].directed);
+    EXPECT_EQ(raised[1].ambient, grid[1].ambient) << "light enough";
+    EXPECT_EQ(raised[2].ambient, vec3(0)) << "in a wall";
 }
 
 } // namespace
