@@ -10,6 +10,7 @@ SETTING(rt_dof, Int, 0, 0, 1, A, "", "depth of field: what is not at the distanc
 SETTING(rt_aperture, Float, 2.0f, 0, 64, A, "qu", "diameter of the lens; 0 shows everything sharp")
 SETTING(rt_focallength, Float, 256.0f, 1, 65536, A, "qu", "distance, along the view's axis, of what is sharp")
 SETTING(rt_reflectionDepth, Int, 5, 1, 16, A, "", "mirrors, portals and reflections one after the other")
+SETTING(rt_refraction, Int, 1, 0, 1, A, "", "water bends what is seen through its surface; 0 goes straight on")
 SETTING(rt_lostLights, Int, 1, 0, 1, A, "", "lights of lights/MAP.ent, which 'q3rt relight' makes, in place of what scripts and map say")
 SETTING(rt_ambient, Float, 1.0f, 0, 4, A, "factor", "of the light grid, for light that no extracted light explains")
 SETTING(rt_scale, Int, 100, 50, 100, A, "percent", "of the picture's width and height that is traced; the rest comes from earlier frames (rt_taa)")

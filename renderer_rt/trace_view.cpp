@@ -91,6 +91,7 @@ void TraceRenderer::describeSettings(RtFrame& out) const {
     if (m_settings.rt_illumination) out.flags |= kFrameIllumination;
     if (m_settings.rt_blueNoise) out.flags |= kFrameBlueNoise;
     if (m_settings.rt_softshadows) out.flags |= kFrameSoftShadows;
+    if (m_settings.rt_refraction) out.flags |= kFrameRefraction;
     if (m_settings.rt_antialiasing) out.flags |= kFrameAntialiasing;
     if (m_settings.rt_tonemap == 0) out.flags |= kFrameClampLight;
     if (m_settings.rt_linear) out.flags |= kFrameLinear;
@@ -105,9 +106,10 @@ void TraceRenderer::describeSettings(RtFrame& out) const {
 
 std::vector<uint32_t> TraceRenderer::settingsKey() const {
     std::vector<uint32_t> key;
-    appendBits(key, std::array{m_settings.rt_illumination, m_settings.rt_cullLights, m_settings.rt_softshadows,
-                               m_settings.rt_blueNoise, m_settings.rt_antialiasing, m_settings.rt_seed,
-                               m_settings.rt_tonemap, m_settings.rt_linear, m_settings.rt_dof});
+    appendBits(key,
+               std::array{m_settings.rt_illumination, m_settings.rt_cullLights, m_settings.rt_softshadows,
+                          m_settings.rt_blueNoise, m_settings.rt_antialiasing, m_settings.rt_seed,
+                          m_settings.rt_tonemap, m_settings.rt_linear, m_settings.rt_dof, m_settings.rt_refraction});
     appendBits(key, std::array{m_settings.rt_ambient, m_settings.rt_exposure, m_settings.rt_minLight,
                                m_settings.rt_aperture, m_settings.rt_focallength});
     return key;

@@ -14,14 +14,19 @@
 // Numbers of a ray's parts: near depth range 0, far one 1, one more for each turn; of a reflection from here on.
 const uint kReflectionPart = 32u;
 
+// On the eye's side; a shading normal may point away from the eye, or send the reflection into the surface.
+vec3 facingNormal(SurfacePoint point, vec3 direction)
+{
+    vec3 normal = point.frontFace ? point.normal : -point.normal;
+    bool fits = dot(normal, direction) < 0.0 && dot(reflect(direction, normal), point.geometricNormal) > 0.0;
+    return fits ? normal : point.geometricNormal;
+}
+
 // What water or glass reflects. True: the ray goes on as the reflected one.
 bool addReflection(inout Picture picture, inout CameraRay ray, SurfacePoint point, float t, float random)
 {
     bool water = (point.surface.flags & kSurfaceWater) != 0u;
-    vec3 normal = point.frontFace ? point.normal : -point.normal;
-    // A shading normal may point away from the eye, or send the reflection into the surface.
-    if (dot(normal, ray.direction) >= 0.0 || dot(reflect(ray.direction, normal), point.geometricNormal) <= 0.0)
-        normal = point.geometricNormal;
+    vec3 normal = facingNormal(point, ray.direction);
     float share = reflectedShare(min(-dot(normal, ray.direction), 1.0), water ? kWaterIndex : kGlassIndex,
                                  water && !point.frontFace);
     if (picture.turns == 0u && !picture.reflected) {
@@ -46,6 +51,10 @@ bool addHit(inout Picture picture, inout CameraRay ray, Hit hit, vec2 random)
         return true;
     addLayer(picture, ray, point, SurfacePlace(hit.instance, hit.triangle, hit.barycentric, hit.t),
              shadeSurface(point, ray.origin, ray.forward), random.x);
+    if ((point.surface.flags & kSurfaceWater) != 0u && (rtFrame.flags & kFrameRefraction) != 0u &&
+        picture.turns < rtFrame.reflectionDepth && picture.passed != vec3(0.0))
+        return bendAtPlane(ray, point.hit.position, facingNormal(point, ray.direction),
+                           point.frontFace ? 1.0 / kWaterIndex : kWaterIndex, hit.t);
     if (point.surface.portal == 0u || !point.frontFace || picture.passed == vec3(0.0))
         return false;
     turnThroughPortal(ray, PortalTable(rtFrame.portals).at[point.surface.portal - 1u], hit.t,

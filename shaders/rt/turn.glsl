@@ -1,6 +1,6 @@
-// Rays that go on in another direction: mirrors, portals, reflection by water and glass. A turned ray keeps its eye,
-// put where it appears to be behind the surface, and begins at the surface's distance from there: distances, texture
-// footprints, fog and all that depends on the eye go on as if the surface were an opening.
+// Rays that go on in another direction: mirrors, portals, reflection by water and glass, refraction by water. A turned
+// ray keeps its eye, put where it appears to be behind the surface, and begins at the surface's distance from there:
+// distances, texture footprints, fog and all that depends on the eye go on as if the surface were an opening.
 #ifndef Q3RT_RT_TURN_GLSL
 #define Q3RT_RT_TURN_GLSL
 #include "lib/offset.glsl"
@@ -80,6 +80,37 @@ void turnAtPlane(inout CameraRay ray, vec3 position, vec3 normal, float t)
     ray.directionY = reflect(ray.directionY, normal);
     ray.forward = reflect(ray.forward, normal);
     beginBehind(ray, oldOrigin, t, cosine);
+}
+
+// The rotation that takes one unit direction to another along the great circle between them (Rodrigues).
+vec3 rotateAlong(vec3 v, vec3 from, vec3 to)
+{
+    vec3 axis = cross(from, to);
+    float cosine = dot(from, to);
+    return v * cosine + cross(axis, v) + axis * (dot(axis, v) / (1.0 + cosine));
+}
+
+// Refraction at a plane through `position`, `normal` on the ray's side; `ratio` of the indices before and behind
+// (Snell). The eye turns about the point with its ray: distances are those along the bent line. True: it has turned, no
+// total reflection stood in the way.
+bool bendAtPlane(inout CameraRay ray, vec3 position, vec3 normal, float ratio, float t)
+{
+    vec3 bent = refract(ray.direction, normal, ratio);
+    if (bent == vec3(0.0))
+        return false;
+    bent = normalize(bent);
+    float cosine = min(-dot(ray.direction, normal), -dot(bent, normal));
+    vec3 oldOrigin = ray.origin;
+    uint solidMask = ray.solidMask, layerMask = ray.layerMask;
+    ray.origin = position - bent * distance(position, oldOrigin);
+    ray.directionX = normalize(rotateAlong(ray.directionX, ray.direction, bent));
+    ray.directionY = normalize(rotateAlong(ray.directionY, ray.direction, bent));
+    ray.forward = rotateAlong(ray.forward, ray.direction, bent);
+    ray.direction = bent;
+    beginBehind(ray, oldOrigin, t, cosine);
+    ray.solidMask = solidMask;
+    ray.layerMask = layerMask;
+    return true;
 }
 
 // Share of light that the surface between air and a medium of refractive index n reflects (Schlick 1994, "An

@@ -145,6 +145,7 @@ SHARED_CONST kFrameKeepRadiance = 0x400u; // the composite's radiance is wanted
 SHARED_CONST kFrameLinear = 0x800u;       // colours are decoded to light
 SHARED_CONST kFrameBlueNoise = 0x1000u;   // rt_blueNoise
 SHARED_CONST kFrameLens = 0x2000u;        // the eye has a lens of some size
+SHARED_CONST kFrameRefraction = 0x4000u;  // rt_refraction
 SHARED_CONST kFrameCountWork = 0x10000u;  // into RtReport::work
 
 struct RtFrame {
