@@ -157,9 +157,10 @@ std::string TraceRenderer::extraStats() const {
     if (report.hasError)
         text += formatText(",\"expected_ssim\":%.6f,\"standard_error\":%.8f", report.likeness, report.error);
     if (m_settings.rt_countWork)
-        text += formatText(",\"work\":{\"any_hit\":%u,\"layers\":%u,\"turned_rays\":%u,\"sky_looks\":%u}",
-                           report.work[kWorkAnyHit], report.work[kWorkLayer], report.work[kWorkTurn],
-                           report.work[kWorkSky]);
+        text += formatText(
+            ",\"work\":{\"any_hit\":%u,\"layers\":%u,\"turned_rays\":%u,\"sky_looks\":%u,\"lights_tried\":%u}",
+            report.work[kWorkAnyHit], report.work[kWorkLayer], report.work[kWorkTurn], report.work[kWorkSky],
+            report.work[kWorkLight]);
     if (report.counts.empty()) return text;
     text += ",\"nonfinite\":{";
     for (size_t i = 0; i < report.counts.size(); ++i)

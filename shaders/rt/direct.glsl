@@ -8,6 +8,7 @@
 #include "rt/lights.glsl"
 #include "rt/sampler.glsl"
 #include "rt/shadow.glsl"
+#include "rt/work.glsl"
 
 const float kLeastSunChance = 0.0625;
 
@@ -15,6 +16,7 @@ const float kLeastSunChance = 0.0625;
 vec3 sumAllLights(ShadingPoint point, RtLightRow row, uvec4 key)
 {
     vec3 sum = vec3(0.0);
+    countWork(kWorkLight, row.count + rtFrame.lightCount);
     for (uint i = 0u; i < row.count; ++i) {
         uint light = LightEntryTable(rtFrame.lightEntries).at[row.first + i].light;
         LightSample lit = sampleRowLight(light, point, sampleNumbers(key, kDimensionLight + light).xy);

@@ -6,10 +6,11 @@
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer WorkTable { RtReport value; };
 
-void countWork(uint kind)
+void countWork(uint kind, uint count)
 {
     if ((rtFrame.flags & kFrameCountWork) != 0u)
-        atomicAdd(WorkTable(rtFrame.report).value.work[kind], 1u);
+        atomicAdd(WorkTable(rtFrame.report).value.work[kind], count);
 }
+void countWork(uint kind) { countWork(kind, 1u); }
 
 #endif

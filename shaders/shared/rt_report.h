@@ -17,7 +17,8 @@ SHARED_CONST kWorkAnyHit = 0u;    // hits on surfaces that may let a ray through
 SHARED_CONST kWorkLayer = 1u;     // hits on blended surfaces and decals
 SHARED_CONST kWorkTurn = 2u;      // rays turned by mirrors, portals, water, glass
 SHARED_CONST kWorkSky = 3u;       // looks at a sky
-SHARED_CONST kWorkKindCount = 4u;
+SHARED_CONST kWorkLight = 4u;     // lights tried where all are (rt_numRandomDL 0)
+SHARED_CONST kWorkKindCount = 5u;
 
 struct RtReport {
     uint tileCount;

@@ -33,6 +33,9 @@ const DirectInputs* inputsOfRun;
 #define Q3RT_RT_SCENE_GLSL
 #define Q3RT_RT_SAMPLER_GLSL
 #define Q3RT_RT_SKY_HIT_GLSL
+#define Q3RT_RT_WORK_GLSL
+const uint kWorkLight = 0;
+void countWork(uint, uint) {}
 float unitFloat(uint bits) { return float(bits >> 8) * 0x1p-24f; }
 Numbers4 unitFloats(uvec4 bits) {
     return Numbers4(glm::vec4(unitFloat(bits.x), unitFloat(bits.y), unitFloat(bits.z), unitFloat(bits.w)));
