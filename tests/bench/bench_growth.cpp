@@ -1,15 +1,16 @@
-// What the direct stage costs, and how it grows. The renderer draws views of maps in the headless engine; times are the
-// device's own of the pass, medians over frames taken by turns.
+// What light costs, and how it grows. The renderer draws views of maps in the headless engine; times are those of the
+// processors, of all threads, per frame: on a software device they are the work, whatever else the machine does.
 //
-//   bench_growth culling [MAP...]  rt_cullLights 0 and 2 beside the lights that pixels try; without names all maps with
+//   bench_growth culling [MAP...]  rt_cullLights 0, 1, 2 beside the lights that pixels try; without names all maps with
 //                                  at least 100 triangle lights whose clusters see at most 0.4 of their map
 //   bench_growth exponents         how time grows with pixels, lights per pixel, moving entities, world triangles
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <functional>
+#include <limits>
 #include <string>
+#include <sys/resource.h>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -17,14 +18,13 @@
 #include "base/error.hpp"
 #include "host/census.hpp"
 #include "host/trade_session.hpp"
-#include "metrics/statistics.hpp"
 
 namespace {
 
 using namespace q3rt;
 
 constexpr PictureSize kSize{80, 60};
-constexpr int kSettle = 3, kFrames = 5;
+constexpr int kSettle = 3, kFrames = 3;
 constexpr size_t kLeastLights = 100;
 constexpr double kLargestShare = 0.4;
 
@@ -33,36 +33,41 @@ TradePoint makePoint(const PictureSize& size, std::map<std::string, std::string>
     return {size, std::move(settings)};
 }
 
-struct Measured {
-    std::vector<double> directMs, frameMs; ///< by frame
-    double lightsTried = 0;                ///< of one frame, if counted
-};
-
-void drawFrames(TradeSession& session, size_t viewCount, const TradePoint& point, int frames, Measured& out) {
-    session.apply(point);
-    for (size_t view = 0; view < viewCount; ++view) {
-        session.approach(view, kSettle);
-        for (int i = 0; i < frames; ++i) {
-            session.draw(view, false);
-            const auto stats = nlohmann::json::parse(session.stats());
-            out.directMs.push_back(stats.at("passes").at("direct"));
-            double frame = 0;
-            for (const auto& pass : stats.at("passes"))
-                frame += pass.get<double>();
-            out.frameMs.push_back(frame);
-            if (i == 0 && stats.contains("work")) out.lightsTried += stats.at("work").at("lights_tried").get<double>();
-        }
-    }
+double processorMs() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const auto ms = [](const timeval& t) { return 1e3 * double(t.tv_sec) + 1e-3 * double(t.tv_usec); };
+    return ms(usage.ru_utime) + ms(usage.ru_stime);
 }
 
-double sumOfMedians(const std::vector<double>& ms, size_t viewCount) {
+/// Processor time of a frame, mean over views; the least of kFrames frames a view.
+double measureMs(TradeSession& session, size_t viewCount, const TradePoint& point) {
+    session.apply(point);
     double sum = 0;
-    const size_t share = ms.size() / viewCount;
-    for (size_t view = 0; view < viewCount; ++view)
-        sum += computeQuantile({ms.begin() + static_cast<std::ptrdiff_t>(view * share),
-                                ms.begin() + static_cast<std::ptrdiff_t>((view + 1) * share)},
-                               0.5);
-    return sum;
+    for (size_t view = 0; view < viewCount; ++view) {
+        session.approach(view, kSettle);
+        session.draw(view, true); // a captured picture is finished
+        double least = std::numeric_limits<double>::infinity();
+        for (int i = 0; i < kFrames; ++i) {
+            const double start = processorMs();
+            session.draw(view, true);
+            least = std::min(least, processorMs() - start);
+        }
+        sum += least;
+    }
+    return sum / double(viewCount);
+}
+
+/// Lights that a frame tries, mean over views.
+double countLights(TradeSession& session, size_t viewCount, const TradePoint& point) {
+    session.apply(point);
+    double sum = 0;
+    for (size_t view = 0; view < viewCount; ++view) {
+        session.approach(view, kSettle);
+        session.draw(view, true);
+        sum += nlohmann::json::parse(session.stats()).at("work").at("lights_tried").get<double>();
+    }
+    return sum / double(viewCount);
 }
 
 struct MapFacts {
@@ -97,20 +102,21 @@ void benchCulling(const std::string& map, const MapFacts& facts) {
     const auto source = openMapSource({.map = map, .places = spawnPlaces(facts, 4)}, {});
     const size_t views = source->viewNames().size();
     TradeSession session(*source, findModule("rt"), false);
-    Measured all, culled, allCounted, culledCounted;
-    const auto point = [](const char* cull, const char* count) {
-        return makePoint(kSize, {{"rt_numRandomDL", "0"}, {"rt_cullLights", cull}, {"rt_countWork", count}});
-    };
-    drawFrames(session, views, point("0", "1"), 1, allCounted);
-    drawFrames(session, views, point("2", "1"), 1, culledCounted);
-    drawFrames(session, views, point("0", "0"), kFrames, all);
-    drawFrames(session, views, point("2", "0"), kFrames, culled);
-    const double pixels = double(views) * kSize.width * kSize.height;
-    const double tried = allCounted.lightsTried / culledCounted.lightsTried;
-    const double time = sumOfMedians(all.directMs, views) / sumOfMedians(culled.directMs, views);
-    std::printf("| %s | %zu | %.2f | %.0f | %.0f | %.2f | %.2f | %.2f |\n", map.c_str(), facts.triangleLights,
-                facts.visibleShare, allCounted.lightsTried / pixels, culledCounted.lightsTried / pixels, tried, time,
-                time / tried);
+    const double unlit = measureMs(session, views, makePoint(kSize, {{"rt_illumination", "0"}}));
+    double tried[3] = {}, ms[3] = {};
+    for (int cull = 0; cull < 3; ++cull) {
+        std::map<std::string, std::string> settings = {{"rt_numRandomDL", "0"},
+                                                       {"rt_cullLights", std::to_string(cull)}};
+        ms[cull] = measureMs(session, views, makePoint(kSize, settings)) - unlit;
+        settings["rt_countWork"] = "1";
+        tried[cull] = countLights(session, views, makePoint(kSize, settings)) / kSize.width / kSize.height;
+    }
+    std::printf("| %s | %zu | %.2f | %.0f, %.0f, %.0f | %.0f, %.0f, %.0f |", map.c_str(), facts.triangleLights,
+                facts.visibleShare, tried[0], tried[1], tried[2], ms[0], ms[1], ms[2]);
+    for (const int cull : {1, 2})
+        std::printf(" %.2f of %.2f: %.2f |", ms[0] / ms[cull], tried[0] / tried[cull],
+                    ms[0] / ms[cull] / (tried[0] / tried[cull]));
+    std::printf("\n");
     std::fflush(stdout);
 }
 
@@ -159,21 +165,18 @@ constexpr const char* kGrowthMap = "oa_shouse";
 
 std::vector<Growth> growWithPixels(TradeSession& session) {
     std::vector<Growth> result;
-    for (const PictureSize size : {PictureSize{80, 60}, {160, 120}, {320, 240}}) {
-        Measured measured;
-        drawFrames(session, 1, makePoint(size, {}), kFrames, measured);
-        result.push_back({double(size.width) * size.height, computeQuantile(measured.frameMs, 0.5)});
-    }
+    for (const PictureSize size : {PictureSize{80, 60}, {160, 120}, {320, 240}})
+        result.push_back({double(size.width) * size.height, measureMs(session, 1, makePoint(size, {}))});
     return result;
 }
 
 std::vector<Growth> growWithLights(TradeSession& session) {
+    const double unlit = measureMs(session, 1, makePoint(kSize, {{"rt_illumination", "0"}}));
     std::vector<Growth> result;
-    for (const int lights : {2, 4, 8, 16, 32}) {
-        Measured measured;
-        drawFrames(session, 1, makePoint(kSize, {{"rt_numRandomDL", std::to_string(lights)}}), kFrames, measured);
-        result.push_back({double(lights), computeQuantile(measured.directMs, 0.5)});
-    }
+    for (const int lights : {1, 2, 4, 8, 16, 32})
+        result.push_back(
+            {double(lights),
+             measureMs(session, 1, makePoint(kSize, {{"rt_numRandomDL", std::to_string(lights)}})) - unlit});
     return result;
 }
 
@@ -192,14 +195,14 @@ class EntityCrowd {
     }
     ~EntityCrowd() { m_engine.unloadModule(); }
 
-    /// Median wall time of a frame.
+    /// Processor time of a frame.
     double measure(int count) {
         const glconfig_t& config = m_engine.config();
         refdef_t view = makeView(m_eye, 90, config.vidWidth, config.vidHeight, 0);
-        std::vector<double> ms;
+        double least = std::numeric_limits<double>::infinity();
         for (int i = 0; i < kSettle + 2 * kFrames; ++i) {
             view.time += 16;
-            const auto start = std::chrono::steady_clock::now();
+            const double start = processorMs();
             m_engine.enter([&](const refexport_t& module) {
                 module.BeginFrame(0);
                 module.ClearScene();
@@ -209,12 +212,10 @@ class EntityCrowd {
                 }
                 module.RenderScene(&view);
             });
-            m_engine.endFrame(false);
-            if (i >= kSettle)
-                ms.push_back(
-                    std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+            m_engine.endFrame(true);
+            if (i >= kSettle) least = std::min(least, processorMs() - start);
         }
-        return computeQuantile(ms, 0.5);
+        return least;
     }
 
   private:
@@ -246,7 +247,7 @@ std::vector<Growth> growWithEntities(Pk3FileSource& files) {
     EntityCrowd crowd(files);
     const double none = crowd.measure(0);
     std::vector<Growth> result;
-    for (const int count : {8, 16, 32, 64, 128})
+    for (const int count : {16, 32, 64, 128, 256})
         result.push_back({double(count), std::max(1e-3, crowd.measure(count) - none)});
     return result;
 }
@@ -258,9 +259,7 @@ std::vector<Growth> growWithTriangles(Pk3FileSource& files) {
         const auto source = openMapSource({.map = map, .places = spawnPlaces(facts, 4)}, {});
         const size_t views = source->viewNames().size();
         TradeSession session(*source, findModule("rt"), false);
-        Measured measured;
-        drawFrames(session, views, makePoint(kSize, {}), kFrames, measured);
-        result.push_back({double(facts.triangles), sumOfMedians(measured.frameMs, views) / double(views)});
+        result.push_back({double(facts.triangles), measureMs(session, views, makePoint(kSize, {}))});
     }
     return result;
 }
@@ -270,11 +269,11 @@ void runExponents(Pk3FileSource& files) {
     {
         const auto source = openMapSource({.map = kGrowthMap, .places = {"spawn:1"}}, {});
         TradeSession session(*source, findModule("rt"), false);
-        printGrowth("pixels (all passes)", growWithPixels(session));
-        printGrowth("lights a pixel (direct pass)", growWithLights(session));
+        printGrowth("pixels", growWithPixels(session));
+        printGrowth("lights a pixel (what they add to an unlit frame)", growWithLights(session));
     }
     printGrowth("animated models (what they add to a frame)", growWithEntities(files));
-    printGrowth("world triangles (all passes, seven maps)", growWithTriangles(files));
+    printGrowth("world triangles (seven maps, 4 views each)", growWithTriangles(files));
 }
 
 } // namespace
