@@ -117,7 +117,7 @@ TreeAddress sendMovingTree(GrowingBuffer& stream, std::span<const TreePart> part
             .bounds = built.bounds};
 }
 
-SceneTree sendSceneTree(GrowingBuffer& stream, std::span<const TreeInstance> instances) {
+SceneTreeData buildSceneTree(std::span<const TreeInstance> instances) {
     std::vector<Bounds> boxes;
     std::vector<uint8_t> groups;
     std::vector<BvhInstance> placed;
@@ -128,12 +128,17 @@ SceneTree sendSceneTree(GrowingBuffer& stream, std::span<const TreeInstance> ins
         boxes.push_back(transformBounds(instance.tree.bounds, instance.worldFromModel));
         groups.push_back(groupsOfMask(placed.back().mask));
     }
-    const Bvh bvh = buildSah(boxes, {.maxLeafItems = 1, .groups = groups});
+    Bvh bvh = buildSah(boxes, {.maxLeafItems = 1, .groups = groups});
     std::vector<BvhInstance> ordered;
     for (const uint32_t item : bvh.order)
         ordered.push_back(placed[item]);
-    return {.nodes = stream.append(std::span<const BvhNode>(bvh.nodes), sizeof(BvhNode)).address,
-            .instances = stream.append(std::span<const BvhInstance>(ordered)).address};
+    return {std::move(bvh.nodes), std::move(ordered)};
+}
+
+SceneTree sendSceneTree(GrowingBuffer& stream, std::span<const TreeInstance> instances) {
+    const SceneTreeData built = buildSceneTree(instances);
+    return {.nodes = stream.append(std::span<const BvhNode>(built.nodes), sizeof(BvhNode)).address,
+            .instances = stream.append(std::span<const BvhInstance>(built.instances)).address};
 }
 
 } // namespace q3rt

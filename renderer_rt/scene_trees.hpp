@@ -68,10 +68,17 @@ struct TreeInstance {
     std::array<uint8_t, kBvhMostParts> masks{};
 };
 
+/// On the CPU.
+struct SceneTreeData {
+    std::vector<BvhNode> nodes;
+    std::vector<BvhInstance> instances; ///< in leaf order
+};
+/// Instances whose transform has no inverse show nothing and are left out.
+SceneTreeData buildSceneTree(std::span<const TreeInstance> instances);
+
 struct SceneTree {
     VkDeviceAddress nodes = 0, instances = 0;
 };
-/// Instances whose transform has no inverse show nothing and are left out.
 SceneTree sendSceneTree(GrowingBuffer& stream, std::span<const TreeInstance> instances);
 
 } // namespace q3rt

@@ -123,9 +123,29 @@ void TracedScene::resolveDynamic(const ViewGeometry& geometry, TracedView& view)
     }
 }
 
+std::vector<uint32_t> TracedScene::instanceOrder(const ViewGeometry& geometry) const {
+    std::vector<Bounds> boxes;
+    for (const ViewTables::Source& source : m_tables.sources) {
+        const EntityRecord& record = geometry.entities[source.entity];
+        Bounds box = record.worldBounds;
+        if (box.empty() && source.dynamicPart >= 0)
+            for (const Vertex& vertex : dynamicTreePart(geometry, source.dynamicPart).vertices)
+                box.add(vec3(record.worldFromModel * vec4(vertex.position, 1.0f)));
+        boxes.push_back(box.empty() ? m_world->bounds : box);
+    }
+    std::vector<uint32_t> order = buildSah(boxes, {.maxLeafItems = 1}).order;
+    // What is too odd for a box comes last.
+    std::vector<bool> placed(boxes.size(), false);
+    for (const uint32_t i : order)
+        placed[i] = true;
+    for (uint32_t i = 0; i < boxes.size(); ++i)
+        if (!placed[i]) order.push_back(i);
+    return order;
+}
+
 void TracedScene::makeInstances(const ViewGeometry& geometry, TracedView& view) {
     std::vector<VkAccelerationStructureInstanceKHR> instances;
-    for (size_t i = 0; i < m_tables.sources.size(); ++i) {
+    for (const uint32_t i : instanceOrder(geometry)) {
         const ViewTables::Source& source = m_tables.sources[i];
         const AccelerationStructure& bottom = source.modelPart ? source.modelPart->structure
                                               : source.staticPart >= 0
@@ -141,7 +161,7 @@ void TracedScene::makeInstances(const ViewGeometry& geometry, TracedView& view) 
         const VkGeometryInstanceFlagsKHR flags = source.surfaceClass == SurfaceClass::Solid
                                                      ? VK_GEOMETRY_INSTANCE_TRIANGLE_FLIP_FACING_BIT_KHR
                                                      : VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
-        instances.push_back(makeInstance(bottom, rows, static_cast<uint32_t>(i), source.mask, 0, flags));
+        instances.push_back(makeInstance(bottom, rows, i, source.mask, 0, flags));
     }
     view.instanceCount = static_cast<uint32_t>(instances.size());
     view.topInstances = m_stream.append(std::span<const VkAccelerationStructureInstanceKHR>(instances), 16);

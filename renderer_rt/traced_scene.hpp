@@ -57,6 +57,8 @@ class TracedScene {
     template <typename T>
     VkDeviceAddress send(const std::vector<T>& items);
     void resolveDynamic(const ViewGeometry& geometry, TracedView& view);
+    /// Instances in the order of a tree over them: drivers that follow the order given make a better one.
+    std::vector<uint32_t> instanceOrder(const ViewGeometry& geometry) const;
     void makeInstances(const ViewGeometry& geometry, TracedView& view);
     TreePart dynamicTreePart(const ViewGeometry& geometry, int number) const;
     void makeTrees(const ViewGeometry& geometry, TracedView& view);
