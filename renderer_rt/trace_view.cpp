@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "gpu/device.hpp"
+#include "renderer_rt/near_area.hpp"
 #include "renderer_rt/trace_renderer.hpp"
 
 namespace q3rt {
@@ -149,6 +151,9 @@ const TracedView& TraceRenderer::prepareView(const FrameCommands& frame, const S
     TracedView& view = m_views.back();
     describeView(scene, buffers, view.frame);
     describeSettings(view.frame);
+    constexpr float kEverywhere = std::numeric_limits<float>::max();
+    view.frame.nearArea = vec4(-kEverywhere, -kEverywhere, kEverywhere, kEverywhere);
+    if (m_settings.rt_onlyRequired) view.frame.nearArea = findNearArea(m_geometry, view.frame);
     view.frame.frame = m_frameNumber++;
     preparePicture(frame, scene, buffers, view.frame);
     prepareHistory(frame, scene, buffers, view.frame);

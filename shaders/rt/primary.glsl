@@ -213,7 +213,9 @@ void primaryPixel(uvec2 pixelPosition)
     picture.reflection = Reflection(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, vec2(0.0));
     picture.pixel = RtPixel(vec3(0.0), 0u, vec3(0.0), vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0), vec3(0.0),
                             vec3(0.0), packKeyPixel(pixelPosition), rtFrame.frame, 0u, 0u, 0u);
-    bool near = (rtFrame.flags & kFrameNearEntities) != 0u;
+    bool near = (rtFrame.flags & kFrameNearEntities) != 0u &&
+                all(greaterThanEqual(picture.at, rtFrame.nearArea.xy)) &&
+                all(lessThanEqual(picture.at, rtFrame.nearArea.zw));
     uint part = near ? 0u : 1u;
     picture.onLens = near ? vec2(0.0) : picture.lens;
     CameraRay ray = makeCameraRay(picture.at, picture.onLens);

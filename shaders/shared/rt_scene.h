@@ -209,6 +209,7 @@ struct RtFrame {
     vec3 forwardUnit;
     vec3 previousEye;
     vec2 jitter; // in a pixel, [0, 1)
+    vec4 nearArea; // pixels: what is in the near depth range shows from .xy to .zw
     float footprint; // what texture detail is chosen for, pixels: less than 1 where the result has more pixels
     float exposure;  // factor, rt_exposure
     float lightScale; // factor of L, r_mapOverBrightBits

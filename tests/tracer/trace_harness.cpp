@@ -37,6 +37,7 @@ TraceHarness::TraceHarness(FileSource& files, const std::filesystem::path& modul
     set("r_customwidth", std::to_string(width));
     set("r_customheight", std::to_string(height));
     set("r_fullscreen", "0");
+    set("rt_backend", "compute");
     m_engine.loadModule(module);
 }
 
