@@ -318,6 +318,24 @@ TEST(Traversal, NeverVisitsANodeTwice) {
     EXPECT_LE(most, scene.mostVisits());
 }
 
+TEST(Traversal, TrianglesWithoutAreaOrNumbersHideNothing) {
+    std::vector<vec3> positions;
+    for (int i = 0; i < 200; ++i) {
+        // Points, lines across and along the rays, and what is no place, all in front of the last one.
+        const vec3 p(static_cast<float>(i % 7), 0, 0);
+        const vec3 end = i % 4 == 1 ? vec3(0, 5, 0) : i % 4 == 2 ? vec3(5, 0, 0) : vec3(0);
+        positions.insert(positions.end(), {p, p + end, i % 4 == 3 ? vec3(NAN, 0, INFINITY) : p});
+    }
+    positions.insert(positions.end(), {vec3(20, -9, -9), vec3(20, 9, -9), vec3(20, 0, 9)});
+    for (const Bvh& bvh : {buildSah(triangleBounds(positions)), buildMorton(triangleBounds(positions))}) {
+        EXPECT_EQ(bvh.rejectedCount, 50u);
+        const TestHit hit = traceShader(singleModelScene(bvh, positions), vec3(-1, 0, 0), {1, 0, 0}, 0, 100);
+        EXPECT_TRUE(hit.hit);
+        EXPECT_EQ(hit.triangle, 200u);
+        EXPECT_FLOAT_EQ(hit.t, 21);
+    }
+}
+
 TEST(Traversal, FiveThousandInstancesAndEmptyScenes) {
     const std::vector<vec3> triangle{{0, -1, -1}, {0, 1, -1}, {0, 0, 1}};
     const Bvh bvh = buildSah(triangleBounds(triangle));
