@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "host/commands.hpp"
 #include "host/headless/replayer.hpp"
+#include "host/map_stage.hpp"
 #include "host/output_file.hpp"
 #include "host/session.hpp"
 
@@ -108,6 +109,7 @@ void runReplay(const ReplayArguments& arguments) {
         times.push_back(result.wallMs);
         progress.advance(times.size());
     }
+    reportSettings(engine.cvars, arguments.cvars);
     printSummary(arguments, summarizeTimes(times), engine.config());
     engine.unloadModule();
 }

@@ -84,6 +84,7 @@ void runView(const ViewArguments& a) {
     const glconfig_t& config = engine.config();
     const refdef_t view = makeView(eye, a.fovDegrees, config.vidWidth, config.vidHeight, a.timeMs);
     const ViewResult result = drawFrames(engine, a, stage, view);
+    reportSettings(engine.cvars, a.cvars);
     writeResult(engine, a, result);
     const TimeSummary times = summarizeTimes(result.wallMs);
     if (a.json)

@@ -39,6 +39,8 @@ class TradeSession {
   private:
     class HashedFiles;
     void start(const TradePoint& point);
+    /// Throws UsageError if a setting of the point is not in force as it was given.
+    void checkSettings(const TradePoint& point) const;
     std::string startSettings(const TradePoint& point) const;
 
     TradeSource& m_source;

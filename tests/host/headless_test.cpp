@@ -132,6 +132,25 @@ TEST_F(HeadlessTest, AnErrorInEveryImportOfALifeLeavesNothingBehind) {
     RecordProperty("importsThatFailed", injected);
 }
 
+TEST(CvarTable, SaysWhyAValueIsNotInForce) {
+    CvarTable cvars;
+    cvars.preset("Rt_Lights", "abc");
+    EXPECT_NE(cvars.complaint("rt_lights").find("no setting"), std::string::npos);
+    cvar_t* lights = cvars.get("rt_lights", "2", 0);
+    cvars.setRange(lights, 0, 64, true);
+    EXPECT_EQ(lights->integer, 2) << "what is no number gives the default";
+    EXPECT_NE(cvars.complaint("rt_lights").find("from 0 to 64, not 'abc': it is 2"), std::string::npos);
+    for (const auto& [given, taken] : std::map<std::string, std::string>{
+             {"-5", "0"}, {"65", "64"}, {"1e30", "64"}, {"3.5", "3"}, {"nan", "2"}, {"7x", "2"}, {"", "2"}}) {
+        cvars.set("rt_lights", given);
+        EXPECT_EQ(cvars.value("rt_lights"), taken) << given;
+        EXPECT_NE(cvars.complaint("rt_lights"), "") << given;
+    }
+    cvars.set("rt_lights", "16");
+    EXPECT_EQ(cvars.complaint("rt_lights"), "");
+    EXPECT_EQ(lights->integer, 16);
+}
+
 TEST_F(HeadlessTest, WhatIsNoModuleIsRefusedWithItsName) {
     HeadlessEngine* other = &engine;
     EXPECT_THROW(other->loadModule(Q3RT_BUILD_DIR "/absent.so"), UsageError);

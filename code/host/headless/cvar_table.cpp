@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 #include "base/error.hpp"
 
@@ -18,6 +19,17 @@ std::string keyOf(std::string_view name) {
     return key;
 }
 
+/// `text` if the cvar's range holds it, else the nearest value that it holds; `reset` for what is no number.
+std::string withinRange(const cvar_t& cvar, const std::string& text, const std::string& reset) {
+    char* end = nullptr;
+    const float number = std::strtof(text.c_str(), &end);
+    if (end == text.c_str() || *end != 0 || std::isnan(number)) return reset;
+    float limited = std::clamp(number, cvar.min, cvar.max);
+    if (cvar.integral) limited = std::trunc(limited);
+    if (limited == number) return text;
+    return cvar.integral ? std::to_string(static_cast<int>(limited)) : formatText("%g", limited);
+}
+
 } // namespace
 
 /// The struct that modules hold, and the strings that it points to.
@@ -25,6 +37,7 @@ struct CvarTable::Entry {
     cvar_t cvar{};
     std::string name, value, reset, description;
     std::string latched;
+    std::optional<std::string> refused; ///< what was given last, if the range did not let it in
     bool hasLatched = false;
 };
 
@@ -33,14 +46,13 @@ CvarTable::~CvarTable() = default;
 
 void CvarTable::assign(Entry& entry, std::string value) {
     cvar_t& cvar = entry.cvar;
-    float number = std::strtof(value.c_str(), nullptr);
     if (cvar.validate) {
-        const float limited = std::clamp(cvar.integral ? std::trunc(number) : number, cvar.min, cvar.max);
-        if (limited != number) {
-            value = cvar.integral ? std::to_string(static_cast<int>(limited)) : formatText("%g", limited);
-            number = limited;
-        }
+        std::string accepted = withinRange(cvar, value, entry.reset);
+        entry.refused.reset();
+        if (accepted != value) entry.refused = value;
+        value = std::move(accepted);
     }
+    const float number = std::strtof(value.c_str(), nullptr);
     const bool changed = value != entry.value || cvar.modificationCount == 0;
     entry.value = std::move(value);
     entry.hasLatched = false;
@@ -118,6 +130,17 @@ cvar_t* CvarTable::find(std::string_view name) const {
 std::string CvarTable::value(std::string_view name) const {
     const cvar_t* cvar = find(name);
     return cvar ? cvar->string : "";
+}
+
+std::string CvarTable::complaint(std::string_view name) const {
+    const auto found = m_entries.find(keyOf(name));
+    if (found == m_entries.end() || found->second->cvar.flags & kUserCreated)
+        return formatText("no setting of this renderer is called %s", std::string(name).c_str());
+    const Entry& entry = *found->second;
+    if (!entry.refused) return "";
+    return formatText("%s takes %s from %g to %g, not '%s': it is %s", entry.name.c_str(),
+                      entry.cvar.integral ? "whole numbers" : "numbers", entry.cvar.min, entry.cvar.max,
+                      entry.refused->c_str(), entry.value.c_str());
 }
 
 std::vector<std::string> CvarTable::names() const {

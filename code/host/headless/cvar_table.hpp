@@ -29,6 +29,8 @@ class CvarTable {
     /// Null if there is none.
     cvar_t* find(std::string_view name) const;
     std::string value(std::string_view name) const;
+    /// Why the value last given to it is not in force: nobody declared it, or its range refused the value; else "".
+    std::string complaint(std::string_view name) const;
     /// Of all cvars, in lower case and in their order.
     std::vector<std::string> names() const;
 
