@@ -24,14 +24,13 @@ void main()
     vec3 seen = (old.lit & kLitTurned) != 0u ? oldGuide.position : point.position;
     vec3 normal = moveDirection(motion, old.normal);
     uint index = pixelIndex(pixelOfStratum(stratum, winnerToPixel(winner)));
-    PixelTable(denoise.pixels).at[index].lit = old.lit;
     PixelTable(denoise.pixels).at[index].position = point.position;
+    PixelTable(denoise.pixels).at[index].lit = old.lit;
     PixelTable(denoise.pixels).at[index].error = point.error;
-    PixelTable(denoise.pixels).at[index].normal = normal;
-    PixelTable(denoise.pixels).at[index].geometricNormal = moveDirection(motion, old.geometricNormal);
     PixelTable(denoise.pixels).at[index].keyPixel = old.keyPixel;
+    PixelTable(denoise.pixels).at[index].normal = normal;
     PixelTable(denoise.pixels).at[index].keyFrame = old.keyFrame;
+    PixelTable(denoise.pixels).at[index].geometricNormal = moveDirection(motion, old.geometricNormal);
     GuideTable(denoise.guides).at[index] = RtGuide(seen, packNormal(normal));
-    PastTable(denoise.pasts).at[index].position = oldGuide.position;
-    PastTable(denoise.pasts).at[index].normal = oldGuide.normal;
+    PastTable(denoise.pasts).at[index] = RtPast(oldGuide.position, oldGuide.normal);
 }

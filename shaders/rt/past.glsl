@@ -30,7 +30,7 @@ vec3 undoTurns(vec3 v, CameraRay straight, CameraRay turned)
 
 RtPast findPast(RtGuide guide, SurfacePlace place, SurfacePoint point, CameraRay straight, CameraRay ray)
 {
-    RtPast past = RtPast(guide.position, guide.normal, place.t);
+    RtPast past = RtPast(guide.position, guide.normal);
     RtMotion motion = MotionTable(rtFrame.motionToPrevious).at[place.instance];
     if (motion.kind == kMotionNone)
         return past;

@@ -188,7 +188,7 @@ void keepPlace(Picture picture, uvec2 pixelPosition)
     if (!picture.followed) {
         vec3 direction = makeCameraRay(picture.at, picture.onLens).direction;
         picture.guide = RtGuide(rtFrame.eye + direction * rtFrame.farQu, kNoNormal);
-        picture.past = RtPast(rtFrame.previousEye + direction * rtFrame.farQu, kNoNormal, 0.0);
+        picture.past = RtPast(rtFrame.previousEye + direction * rtFrame.farQu, kNoNormal);
     }
     GuideTable(rtFrame.guides).at[pixelIndex(pixelPosition)] = picture.guide;
     PastTable(rtFrame.pasts).at[pixelIndex(pixelPosition)] = picture.past;
@@ -211,8 +211,8 @@ void primaryPixel(uvec2 pixelPosition)
     picture.turns = 0u;
     picture.reflected = false;
     picture.reflection = Reflection(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, vec2(0.0));
-    picture.pixel = RtPixel(vec3(0.0), 0u, vec3(0.0), vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0), vec3(0.0),
-                            vec3(0.0), packKeyPixel(pixelPosition), rtFrame.frame, 0u, 0u, 0u);
+    picture.pixel = RtPixel(vec3(0.0), 0u, vec3(0.0), packKeyPixel(pixelPosition), vec3(0.0, 0.0, 1.0), rtFrame.frame,
+                            vec3(0.0, 0.0, 1.0), 0u, vec3(0.0), 0u, vec3(0.0), 0u);
     bool near = (rtFrame.flags & kFrameNearEntities) != 0u &&
                 all(greaterThanEqual(picture.at, rtFrame.nearArea.xy)) &&
                 all(lessThanEqual(picture.at, rtFrame.nearArea.zw));

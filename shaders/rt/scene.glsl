@@ -16,7 +16,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Num
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer StageTable { StageState at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SkyTable { RtSky at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FogTable { RtFog at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PixelTable { RtPixel at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer PixelTable { RtPixel at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer ColorTable { vec4 at[]; };
 
 layout(push_constant, scalar) uniform Push { RtPush push; };

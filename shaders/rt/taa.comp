@@ -67,12 +67,14 @@ NewColor findColor(ivec2 pixel, vec2 center)
 ivec2 findNearest(ivec2 pixel)
 {
     ivec2 nearest = pixel;
-    float best = 0.0;
+    vec3 away = GuideTable(taa.guides).at[indexOf(pixel)].position - taa.camera.eye;
+    float best = dot(away, away);
     for (int i = 0; i < 9; ++i) {
         ivec2 tap = pixel + ivec2(i % 3 - 1, i / 3 - 1);
-        float distance = PastTable(taa.pasts).at[indexOf(tap)].distance;
-        if (distance > 0.0 && (best == 0.0 || distance < best)) {
-            best = distance;
+        away = GuideTable(taa.guides).at[indexOf(tap)].position - taa.camera.eye;
+        float squared = dot(away, away);
+        if (squared < best) {
+            best = squared;
             nearest = clamp(tap, ivec2(0), ivec2(taa.size) - 1);
         }
     }

@@ -39,8 +39,7 @@ struct RtGuide {
 // The same in the frame before.
 struct RtPast {
     vec3 position;
-    uint normal;    // packNormal(), kNoNormal; kNoPast: unknown
-    float distance; // of this frame's guide from the eye, along the ray; 0: the sky
+    uint normal; // packNormal(), kNoNormal; kNoPast: unknown
 };
 
 SHARED_END

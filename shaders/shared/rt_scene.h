@@ -116,18 +116,19 @@ SHARED_CONST kLitThin = 0x4u;     // kSurfaceThin
 SHARED_CONST kLitModel = 0x8u;    // kSurfaceModel
 
 // What the primary stage leaves for the others; one a pixel, row by row.
+// In rows of 16 bytes, which a GPU moves at once; what the composite reads is one of its sectors of 32 bytes.
 struct RtPixel {
     vec3 position; // of the lit layer
     uint lit;      // kLit*
     vec3 error;    // of position, see lib/offset.glsl
-    vec3 normal;   // unit, shading, on the eye's side
-    vec3 geometricNormal; // unit, on the eye's side
-    vec3 albedo;   // A, times what the layers in front let through
-    vec3 emission; // B of all layers
     uint keyPixel; // of the direct stage's random numbers: x | y << 16
+    vec3 normal;   // unit, shading, on the eye's side
     uint keyFrame;
+    vec3 geometricNormal; // unit, on the eye's side
     uint instance; // of the lit layer: with the next two its place on the surface, whatever becomes of that
+    vec3 albedo;   // A, times what the layers in front let through
     uint triangle;
+    vec3 emission;    // B of all layers
     uint barycentric; // packUnorm2x16(), of corners 1 and 2
 };
 

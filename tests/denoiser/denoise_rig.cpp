@@ -72,7 +72,7 @@ void DenoiseRig::uploadSurfaces(const std::vector<RtPixel>& pixels) {
     for (const RtPixel& pixel : pixels) {
         const uint32_t normal = pixel.lit ? shader::packNormal(pixel.normal) : shader::kNoNormal;
         guides.push_back({pixel.position, normal});
-        pasts.push_back({pixel.position, normal, 1});
+        pasts.push_back({pixel.position, normal});
     }
     m_uploader.upload(m_buffers.pixels, std::span<const RtPixel>(pixels));
     m_uploader.upload(m_buffers.guides->guides, std::span<const RtGuide>(guides));
