@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 
 #include "base/error.hpp"
 #include "frame/frame_executor.hpp"
@@ -25,6 +26,7 @@ ReportNumbers readNumbers(const RtReport& report, const std::vector<std::string>
     for (size_t i = 0; i < passes.size(); ++i)
         out.counts.push_back({passes[i], report.nonFinite[i]});
     std::copy(std::begin(report.work), std::end(report.work), out.work.begin());
+    out.rayCount = std::accumulate(std::begin(report.rays), std::end(report.rays), uint64_t{0});
     return out;
 }
 

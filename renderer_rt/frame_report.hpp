@@ -23,6 +23,7 @@ struct ReportNumbers {
     };
     std::vector<Count> counts; ///< of each checked pass
     std::array<uint32_t, kWorkKindCount> work{};
+    uint64_t rayCount = 0;
 };
 
 class FrameReport {

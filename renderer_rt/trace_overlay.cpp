@@ -57,14 +57,24 @@ std::vector<std::string> TraceRenderer::meanLines() const {
     return {line};
 }
 
+std::string TraceRenderer::rayLine(double tracingMs) const {
+    constexpr double kMillion = 1e6;
+    const double millions = static_cast<double>(m_report->latest().rayCount) / kMillion;
+    std::string line = formatText("rays: %.2f million", millions);
+    if (tracingMs > 0) line += formatText(", %.1f million a second", millions / (tracingMs / 1000));
+    return line;
+}
+
 std::vector<std::string> TraceRenderer::performanceLines() {
     std::vector<std::string> lines{""};
-    double total = 0;
+    double total = 0, tracing = 0;
     for (const TimerRow& pass : passTimes()) {
         total += pass.ms;
+        if (pass.name == "primary" || pass.name == "direct" || pass.name == "plain") tracing += pass.ms;
         lines.push_back(formatText("%8.2f %s", pass.ms, pass.name.c_str()));
     }
     lines.front() = formatText("%8.2f ms in all, %s", total, backendName());
+    lines.push_back(rayLine(tracing));
     const size_t lightCount =
         m_scene->hasWorld() ? m_scene->lights()->triangleCount() + m_scene->lights()->others().size() : 0;
     const std::string lights = m_settings.rt_numRandomDL == 0 ? "all" : formatText("%d", m_settings.rt_numRandomDL);

@@ -104,11 +104,13 @@ void TraceRenderer::onGpuFrameBegin(const FrameCommands&) {
     followPause();
 }
 
+bool TraceRenderer::countsRays() const { return m_settings.rt_countWork != 0 || m_settings.rt_printPerfStats != 0; }
+
 void TraceRenderer::beginReport(FrameGraph& graph, ViewResources& resources) {
     const bool isRead = settings().q3rt_wantStats || m_settings.rt_printPerfStats || engine().wantsWindow();
     m_check.reset();
     if (m_settings.rt_checkFinite) m_check.emplace(FiniteCheck{*m_report, *m_pictures});
-    resources.countsWork = m_settings.rt_countWork != 0;
+    resources.countsWork = countsRays();
     if (!m_check && !resources.countsWork && !(accumulates() && isRead)) return;
     resources.report = m_reportBuffer ? m_reportBuffer : m_report->addClear(graph);
     resources.check = m_check ? &*m_check : nullptr;
@@ -156,6 +158,7 @@ std::string TraceRenderer::extraStats() const {
         text += formatText(",\"samples\":%u", m_lastBuffers->sums->sampleNumber + 1);
     if (report.hasError)
         text += formatText(",\"expected_ssim\":%.6f,\"standard_error\":%.8f", report.likeness, report.error);
+    if (countsRays()) text += formatText(",\"rays\":%llu", static_cast<unsigned long long>(report.rayCount));
     if (m_settings.rt_countWork)
         text += formatText(
             ",\"work\":{\"any_hit\":%u,\"layers\":%u,\"turned_rays\":%u,\"sky_looks\":%u,\"lights_tried\":%u}",

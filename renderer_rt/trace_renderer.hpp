@@ -50,6 +50,7 @@ class TraceRenderer final : public GpuRenderer {
     void describeView(const SceneView& scene, const ViewBuffers& buffers, RtFrame& out) const;
     void describeSettings(RtFrame& out) const;
     bool accumulates() const;
+    bool countsRays() const;
     /// All that a view's picture depends on: equal keys, equal expected pictures.
     std::vector<uint32_t> viewKey(const FrameCommands& frame, const SceneView& scene) const;
     /// What changes the light of a view that stays the same: histories end. Levels of rt_targetMs change noise and what
@@ -72,6 +73,8 @@ class TraceRenderer final : public GpuRenderer {
     /// Numbers over the picture, if they are wanted.
     void addOverlay(FrameGraph& graph, FrameTargets& targets, bool captured);
     std::vector<std::string> performanceLines();
+    /// Of a frame whose stages that trace took so long.
+    std::string rayLine(double tracingMs) const;
     /// Of a mean of plain samples: how many there are, and how far it is from the truth.
     std::vector<std::string> meanLines() const;
     void addCommands();

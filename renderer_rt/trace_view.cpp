@@ -98,6 +98,7 @@ void TraceRenderer::describeSettings(RtFrame& out) const {
     if (m_settings.rt_tonemap == 0) out.flags |= kFrameClampLight;
     if (m_settings.rt_linear) out.flags |= kFrameLinear;
     if (m_settings.rt_countWork) out.flags |= kFrameCountWork;
+    if (countsRays()) out.flags |= kFrameCountRays;
     if (!m_settings.rt_onlyRequired) out.flags |= kFrameLayers | kFrameNearEntities | kFrameSkySurfaces;
     out.exposure = m_settings.rt_exposure;
     out.lightScale = std::exp2(static_cast<float>(settings().r_mapOverBrightBits - kWhiteOverbrightBits));

@@ -34,7 +34,7 @@ struct ViewResources {
     BufferId reference;                 ///< vec4[]: their mean, exposed
     BufferId exposure;                  ///< RtExposure, if it is automatic
     BufferId report;                    ///< RtReport, if something is counted
-    bool countsWork = false;            ///< rt_countWork
+    bool countsWork = false;            ///< stages that trace write into the report
     const FiniteCheck* check = nullptr; ///< null: buffers are not searched for what is no number
 };
 

@@ -7,6 +7,7 @@ void addPlain(FrameGraph& graph, ViewResources& resources, const ViewWork& work)
     graph.addPass(
         "plain",
         [&](PassBuilder& pass) {
+            if (resources.countsWork) resources.report = pass.write(resources.report, work.pipelines.bufferWrite());
             pass.read(resources.structures, work.pipelines.structureRead());
             resources.picture = pass.write(resources.picture, work.pipelines.bufferWrite());
         },

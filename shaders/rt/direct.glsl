@@ -99,6 +99,7 @@ void directPixel(uvec2 pixelPosition)
     }
     ColorTable(rtFrame.irradiance).at[index] = vec4(light, 1.0);
     ColorTable(rtFrame.ambientL).at[index] = vec4(ambient, 1.0);
+    reportRays(pixelPosition);
 }
 
 #endif

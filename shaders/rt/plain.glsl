@@ -53,6 +53,7 @@ void plainPixel(uvec2 pixelPosition)
 {
     vec3 direction = cameraDirection(rtFrame.forward, rtFrame.left, rtFrame.up,
                                      (vec2(pixelPosition) + 0.5) / vec2(rtFrame.size));
+    countRay();
     Hit hit = traceSight(rtFrame.eye, direction, 0.0, rtFrame.farQu, kMaskSolid, 0u, LayerKey(0.0, 0u, 0u)).solid;
     vec3 light = vec3(0.0);
     if (hit.t > 0.0) {
@@ -62,6 +63,7 @@ void plainPixel(uvec2 pixelPosition)
     }
     vec3 shown = clampKeepingHue(light * (rtFrame.lightScale * rtFrame.exposure));
     ColorTable(rtFrame.picture).at[pixelIndex(pixelPosition)] = vec4(shown, 1.0);
+    reportRays(pixelPosition);
 }
 
 #endif

@@ -10,6 +10,7 @@
 #include "rt/sampler.glsl"
 #include "rt/sky.glsl"
 #include "rt/turn.glsl"
+#include "rt/work.glsl"
 
 // Numbers of a ray's parts: near depth range 0, far one 1, one more for each turn; of a reflection from here on.
 const uint kReflectionPart = 32u;
@@ -93,6 +94,7 @@ void look(inout Outlook view, CameraRay ray)
     float from = more ? view.sight.layers.after.distance : view.from;
     float farthest = more ? view.limit : ray.from + rtFrame.farQu;
     Hit solid = view.sight.solid;
+    countRay();
     view.sight = traceSight(ray.origin, ray.direction, from, farthest, solidMask, layered ? ray.layerMask : 0u,
                             view.sight.layers.after);
     if (more)
@@ -237,6 +239,7 @@ void primaryPixel(uvec2 pixelPosition)
     PixelTable(rtFrame.pixels).at[pixelIndex(pixelPosition)] = picture.pixel;
     if ((rtFrame.flags & kFrameHistory) != 0u)
         keepPlace(picture, pixelPosition);
+    reportRays(pixelPosition);
 }
 
 #endif

@@ -20,12 +20,15 @@ SHARED_CONST kWorkSky = 3u;       // looks at a sky
 SHARED_CONST kWorkLight = 4u;     // lights tried where all are (rt_numRandomDL 0)
 SHARED_CONST kWorkKindCount = 5u;
 
+SHARED_CONST kRayCounterCount = 256u;
+
 struct RtReport {
     uint tileCount;
     uint low[kReportSumCount]; // words of the sums over tiles
     uint high[kReportSumCount];
     uint nonFinite[kReportCounterCount]; // by counter: numbers that are none, and infinities
     uint work[kWorkKindCount];           // by kWork*, modulo 2^32
+    uint rays[kRayCounterCount];         // searches for what looking and shadow rays meet; their sum counts
 };
 
 // Counts in a buffer of structures of so many 32-bit words, of which those with a bit in `floats` are numbers.

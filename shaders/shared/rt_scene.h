@@ -148,6 +148,7 @@ SHARED_CONST kFrameBlueNoise = 0x1000u;   // rt_blueNoise
 SHARED_CONST kFrameLens = 0x2000u;        // the eye has a lens of some size
 SHARED_CONST kFrameRefraction = 0x4000u;  // rt_refraction
 SHARED_CONST kFrameCountWork = 0x10000u;  // into RtReport::work
+SHARED_CONST kFrameCountRays = 0x20000u;  // into RtReport::rays
 
 struct RtFrame {
     SHARED_ADDRESS instances;

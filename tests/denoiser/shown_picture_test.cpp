@@ -153,6 +153,23 @@ TEST_F(ShownPictureTest, NumbersShowOnThePictureAndNotOnAKeptMean) {
     EXPECT_EQ(worstDifference(plain, numbers, 0, 6), 0) << "there is a margin";
 }
 
+TEST_F(ShownPictureTest, RaysAreCounted) {
+    const auto harness = makeRoom({{"rt_countWork", "1"}, {"q3rt_wantStats", "1"}, {"rt_numRandomDL", "1"}});
+    const auto countRays = [&] {
+        harness->draw(kCamera, 4); // counts come some frames late
+        return nlohmann::json::parse(harness->engine().cvars.value("q3rt_stats")).at("rays").get<int>();
+    };
+    constexpr int kPixels = kWidth * kHeight;
+    const int one = countRays();
+    // The room is closed: a pixel looks once. It asks at most once for its light.
+    EXPECT_GT(one, kPixels);
+    EXPECT_LE(one, 2 * kPixels);
+    harness->set("rt_numRandomDL", "3");
+    const int three = countRays();
+    EXPECT_GT(three - kPixels, 2 * (one - kPixels));
+    EXPECT_LE(three, 4 * kPixels);
+}
+
 TEST_F(ShownPictureTest, NothingIsInfiniteInAnyPass) {
     const auto harness = makeRoom({{"rt_checkFinite", "1"}, {"q3rt_wantStats", "1"}, {"rt_autoExposure", "1"}});
     harness->draw(kCamera, 5);

@@ -50,6 +50,8 @@ Hit traceSolid(vec3 origin, vec3 direction, float, uint, bool first) {
     if (first) return {1, inputsOfRun->sky(origin, direction)};
     return {inputsOfRun->visible(origin, direction) ? 0.0f : 1.0f, false};
 }
+void countRay() {}
+void reportRays(uvec2) {}
 bool isSky(Hit hit) { return hit.sky; }
 uint pixelIndex(uvec2) { return 0; }
 
