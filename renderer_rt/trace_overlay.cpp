@@ -51,10 +51,12 @@ void TraceRenderer::registerOverlayFont() { m_overlayFont = registerShader(kFont
 
 std::vector<std::string> TraceRenderer::meanLines() const {
     if (!m_lastBuffers || !m_lastBuffers->sums) return {};
-    std::string line = formatText("%u frames", m_lastBuffers->sums->sampleNumber + 1);
+    std::vector<std::string> lines{formatText("%u frames", m_lastBuffers->sums->sampleNumber + 1)};
     const ReportNumbers& report = m_report->latest();
-    if (report.hasError) line += formatText(", SSIM to truth %.4f, standard error %.5f", report.likeness, report.error);
-    return {line};
+    if (!report.hasError) return lines;
+    lines.push_back(formatText("SSIM to truth: %.4f", report.likeness));
+    lines.push_back(formatText("standard error: %.5f", report.error));
+    return lines;
 }
 
 std::string TraceRenderer::rayLine(double tracingMs) const {
@@ -82,8 +84,8 @@ std::vector<std::string> TraceRenderer::performanceLines() {
     uint32_t builds = 0;
     for (const ClassCount& count : m_classCounts)
         builds += count.builds;
-    lines.push_back(formatText("structures: %u instances, %u built, %u moving triangles", m_instanceCount, builds,
-                               m_movingTriangleCount));
+    lines.push_back(
+        formatText("structures: %u, built: %u, moving triangles: %u", m_instanceCount, builds, m_movingTriangleCount));
     const MemoryUse use = context().device().memory().measureUse();
     constexpr double kMiB = 1 << 20;
     lines.push_back(formatText("memory: %.0f of %.0f MiB", static_cast<double>(use.usedBytes) / kMiB,
