@@ -10,10 +10,9 @@ namespace q3rt {
 
 namespace {
 
-// Half size of the sky cube as a part of the far distance: its corners stay inside.
-constexpr float kSkyPart = 1.75f;
 constexpr float kBlackGrey = 0.0f;
 constexpr float kOpaqueSort = 3.0f;
+constexpr float kShadowVolumeSort = 14.0f;
 
 float wholeByte(float value) { return std::floor(std::clamp(value, 0.0f, 1.0f) * 255.0f) / 255.0f; }
 
@@ -144,8 +143,14 @@ void DrawListBuilder::makeBatches(ViewWork& work) {
         draw.clearGrey = static_cast<float>(scene.timeMs & 255) / 255.0f;
     }
     draw.firstBatch = static_cast<uint32_t>(work.out.batches.size());
+    const bool volumes = work.settings.geometry.shadows == Shadows::Volume;
+    bool volumesDrawn = !volumes;
     for (size_t first = 0; first < work.items.size();) {
         const Item& head = work.items[first];
+        if (!volumesDrawn && m_materials.get(head.material).sort > kShadowVolumeSort) {
+            appendShadowVolumes(work);
+            volumesDrawn = true;
+        }
         const bool merge = m_materials.get(head.material).entityMergable;
         size_t last = first + 1;
         for (; last < work.items.size(); ++last) {
@@ -157,6 +162,9 @@ void DrawListBuilder::makeBatches(ViewWork& work) {
         appendBatch(work, first, last);
         first = last;
     }
+    if (!volumesDrawn) appendShadowVolumes(work);
+    if (work.settings.raster.r_drawSun != 0 && work.skyDrawn) appendSun(work);
+    if (volumes) appendShadowShade(work);
     draw.batchCount = static_cast<uint32_t>(work.out.batches.size()) - draw.firstBatch;
     work.out.views.push_back(draw);
 }
@@ -192,6 +200,7 @@ void DrawListBuilder::appendBatch(ViewWork& work, size_t firstItem, size_t lastI
 
 void DrawListBuilder::appendSky(ViewWork& work, const Material& material, MaterialId id, size_t firstItem,
                                 size_t lastItem) {
+    work.skyDrawn = true;
     SkyCoverage coverage;
     coverage.clear();
     const vec3& eye = work.view.eye.origin;
@@ -217,7 +226,7 @@ void DrawListBuilder::appendSky(ViewWork& work, const Material& material, Materi
                 appendSkyFace(coverage, face, eye, halfSize, false, 0, work.out.vertices, work.out.indices);
             if (range.indexCount == 0) continue;
             // Images are in the order rt lf bk ft up dn, as the faces are.
-            batch.ownStages = true;
+            batch.own = OwnDraw::SkyBox;
             batch.stages = {kOwnStageBit | static_cast<uint32_t>(work.out.ownStages.size()), 1};
             work.out.ownStages.push_back(pictureStage(material.sky.box[static_cast<size_t>(face)]));
             batch.firstIndex = range.firstIndex;
@@ -226,7 +235,7 @@ void DrawListBuilder::appendSky(ViewWork& work, const Material& material, Materi
         }
     }
     if (material.stages.empty()) return;
-    batch.ownStages = false;
+    batch.own = OwnDraw::None;
     batch.firstIndex = static_cast<uint32_t>(work.out.indices.size());
     for (int face = 0; face < kSkyCloudFaces; ++face)
         appendSkyFace(coverage, face, eye, halfSize, true, m_materials.lastCloudHeight, work.out.vertices,

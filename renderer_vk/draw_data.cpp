@@ -2,6 +2,13 @@
 
 namespace q3rt {
 
+StageState colorStage(const vec4& color) {
+    StageState state{};
+    state.unit[0].texture = state.unit[1].texture = builtinTexture::kWhite;
+    state.color = color;
+    return state;
+}
+
 void FrameDrawData::clear() {
     vertices.clear();
     indices.clear();

@@ -21,13 +21,21 @@ inline constexpr uint32_t kOwnStageBit = 0x80000000u;
 /// Depth range of a batch in the window (spec of world 3.7).
 enum class DepthRange : uint8_t { Normal, Weapon, Far, Near };
 
+/// Draws whose state is no material's.
+enum class OwnDraw : uint8_t {
+    None,
+    SkyBox,       ///< opaque, no depth write
+    Overlay,      ///< alpha blend, no depth
+    ShadowVolume, ///< counts in the stencil: sides toward the eye up, then the others down
+    ShadowShade   ///< darkens where the count is not 0
+};
+
 /// Triangles of one material, entity and fog, drawn stage by stage.
 struct DrawBatch {
-    MaterialId material = 0; ///< the one that is drawn (remapped)
-    StageRange stages;       ///< first may have kOwnStageBit
-    bool ownStages = false;  ///< draw with the state of a sky box or cinematic, not of the material's stages
-    bool depthFirst = false; ///< its depth may be drawn before everything else of the view
-    bool blendOwn = false;   ///< own stages only: alpha blend, no depth
+    MaterialId material = 0;     ///< the one that is drawn (remapped)
+    StageRange stages;           ///< first may have kOwnStageBit
+    OwnDraw own = OwnDraw::None; ///< draw with this state, not with the material's stages
+    bool depthFirst = false;     ///< its depth may be drawn before everything else of the view
     VertexSource source = VertexSource::World;
     DepthRange depthRange = DepthRange::Normal;
     uint32_t entity = 0; ///< in FrameDrawData::entities
@@ -45,6 +53,9 @@ struct ViewDraw {
     float clearGrey = 0; ///< [0, 1]
     uint32_t firstBatch = 0, batchCount = 0;
 };
+
+/// A stage of one colour and the white picture.
+StageState colorStage(const vec4& color);
 
 struct FrameDrawData {
     std::vector<Vertex> vertices; ///< VertexSource::Dynamic

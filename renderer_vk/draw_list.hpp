@@ -7,6 +7,7 @@
 #include "renderer_vk/draw_data.hpp"
 #include "renderer_vk/portal.hpp"
 #include "renderer_vk/raster_settings.hpp"
+#include "renderer_vk/shadow_volume.hpp"
 #include "renderer_vk/sky.hpp"
 #include "renderer_vk/surface_lights.hpp"
 #include "renderer_vk/visibility.hpp"
@@ -18,6 +19,7 @@ namespace q3rt {
 struct DrawListSettings {
     RasterSettings raster;
     ViewGeometrySettings geometry;
+    MaterialId sun = 0;
     bool fastSky = false, drawWorld = true;
     bool dynamicLights = true;
 };
@@ -61,6 +63,9 @@ class DrawListBuilder {
     void makeBatches(ViewWork& work);
     void appendBatch(ViewWork& work, size_t firstItem, size_t lastItem);
     void appendSky(ViewWork& work, const Material& material, MaterialId id, size_t firstItem, size_t lastItem);
+    void appendShadowVolumes(ViewWork& work);
+    void appendShadowShade(ViewWork& work);
+    void appendSun(ViewWork& work);
     void appendItemIndices(ViewWork& work, const Item& item);
     uint32_t entityIndex(ViewWork& work, uint32_t entity);
     int fogIndex(ViewWork& work, int fog);
@@ -74,6 +79,7 @@ class DrawListBuilder {
     const World* m_world;
     std::unique_ptr<WorldVisibility> m_visibility;
     std::unique_ptr<SurfaceLights> m_lights;
+    ShadowVolumeBuilder m_shadowVolumes;
     std::vector<uint32_t> m_batchLights; ///< of the batch at hand
     std::vector<uint32_t> m_handled;     ///< stamp by world surface: once a view, also by brush models
     uint32_t m_stamp = 0;

@@ -8,12 +8,13 @@ void GpuRenderer::drawFrame(const FrameCommands& frame, FrameImage* capture) {
     m_context->beginFrame();
     followTextures(false);
     m_stages->beginFrame();
-    m_raster->beginFrame();
+    m_raster->beginFrame(m_rasterSettings);
     onGpuFrameBegin(frame);
 
     FrameGraph graph;
     FrameTargets targets{graph.importImage("target", m_context->target()),
                          graph.importImage("depth", m_context->depth())};
+    if (m_rasterSettings.r_clear != 0) m_raster->addClear(graph, targets);
     const std::span<const FrameCommand> commands(frame.commands);
     for (size_t i = 0; i < commands.size();) {
         if (const auto* scene = std::get_if<SceneView>(&commands[i])) {

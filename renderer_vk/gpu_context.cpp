@@ -49,8 +49,8 @@ void GpuContext::createTargets() {
                                              VK_IMAGE_USAGE_STORAGE_BIT,
                                     .name = "target"});
     m_depth = GpuImage(*m_device, {.extent = m_extent,
-                                   .format = kDepthFormat,
-                                   .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                                   .format = depthStencilFormat(*m_device),
+                                   .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
                                    .name = "depth"});
     // Black with alpha 1, which nothing ever overwrites; depth far.
     m_device->submitAndWait([&](VkCommandBuffer commands) {
@@ -61,7 +61,7 @@ void GpuContext::createTargets() {
         const VkClearColorValue black{.float32 = {0, 0, 0, 1}};
         const VkClearDepthStencilValue far{1.0f, 0};
         const VkImageSubresourceRange color{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-        const VkImageSubresourceRange depth{VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
+        const VkImageSubresourceRange depth{aspectOf(m_depth.info().format), 0, 1, 0, 1};
         vkCmdClearColorImage(commands, m_target.handle(), written.layout, &black, 1, &color);
         vkCmdClearDepthStencilImage(commands, m_depth.handle(), written.layout, &far, 1, &depth);
     });

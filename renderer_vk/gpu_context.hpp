@@ -18,7 +18,6 @@ namespace q3rt {
 class Window;
 
 inline constexpr VkFormat kTargetFormat = VK_FORMAT_R8G8B8A8_UNORM; ///< the original blends in 8 bits
-inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 
 class GpuContext {
   public:

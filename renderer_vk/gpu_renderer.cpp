@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "formats/text_case.hpp"
 #include "gpu/device.hpp"
 
 namespace q3rt {
@@ -34,6 +35,13 @@ DisplayInfo GpuRenderer::openDisplay() {
 void GpuRenderer::onContentCreated() {
     m_stages = std::make_unique<StageTable>(materials(), textures(), kIdentityLight);
     m_raster->setContent(materials(), models(), *m_stages);
+    m_projectionShadow = knownMaterial("projectionShadow");
+    m_sun = knownMaterial("sun");
+}
+
+/// The default material if no script has that name.
+MaterialId GpuRenderer::knownMaterial(const char* name) {
+    return materials().scripts().find(toLowerAscii(name)) ? materials().find(name, lightmapContext::kNone) : 0;
 }
 
 void GpuRenderer::followTextures(bool flush) {
@@ -74,6 +82,11 @@ DrawListSettings GpuRenderer::drawListSettings() const {
     DrawListSettings result;
     result.raster = m_rasterSettings;
     result.geometry = viewGeometrySettings();
+    constexpr int kVolumes = 2, kProjected = 3;
+    if (settings().cg_shadows == kVolumes) result.geometry.shadows = Shadows::Volume;
+    if (settings().cg_shadows == kProjected) result.geometry.shadows = Shadows::Projected;
+    result.geometry.projectionShadow = m_projectionShadow;
+    result.sun = m_sun;
     result.fastSky = settings().r_fastsky != 0;
     result.drawWorld = settings().r_drawworld != 0;
     return result;

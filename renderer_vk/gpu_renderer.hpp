@@ -61,9 +61,11 @@ class GpuRenderer : public FrontEnd {
     void onMinimize() final { m_context->minimize(); }
     void drawFrame(const FrameCommands& frame, FrameImage* capture);
     void followTextures(bool flush);
+    MaterialId knownMaterial(const char* name);
     void publishStats();
 
     RasterSettings m_rasterSettings;
+    MaterialId m_projectionShadow = 0, m_sun = 0; ///< that the renderer draws of its own
     std::unique_ptr<GpuContext> m_context;
     std::unique_ptr<RasterScene> m_raster;
     std::unique_ptr<StageTable> m_stages;

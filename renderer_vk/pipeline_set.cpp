@@ -69,6 +69,17 @@ VkColorComponentFlags writeMaskOf(const StateKey& key) {
     return VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT;
 }
 
+std::optional<VkStencilOpState> stencilState(StencilUse use) {
+    constexpr uint32_t kAll = 0xff;
+    if (use == StencilUse::None) return std::nullopt;
+    VkStencilOpState state{
+        VK_STENCIL_OP_KEEP, VK_STENCIL_OP_KEEP, VK_STENCIL_OP_KEEP, VK_COMPARE_OP_ALWAYS, kAll, kAll, 0};
+    if (use == StencilUse::CountUp) state.passOp = VK_STENCIL_OP_INCREMENT_AND_CLAMP;
+    if (use == StencilUse::CountDown) state.passOp = VK_STENCIL_OP_DECREMENT_AND_CLAMP;
+    if (use == StencilUse::WhereCounted) state.compareOp = VK_COMPARE_OP_NOT_EQUAL;
+    return state;
+}
+
 } // namespace
 
 StateKey stageKey(const Stage& stage, bool clipped) {
@@ -127,6 +138,30 @@ StateKey depthKey() {
     return key;
 }
 
+StateKey shadowVolumeKey(bool up, bool clipped) {
+    StateKey key = depthKey();
+    key.depthWrite = false;
+    key.stencil = up ? StencilUse::CountUp : StencilUse::CountDown;
+    key.clipped = clipped;
+    return key;
+}
+
+StateKey shadowShadeKey() {
+    StateKey key;
+    key.blended = true;
+    key.source = BlendFactor::DstColor;
+    key.destination = BlendFactor::Zero;
+    key.stencil = StencilUse::WhereCounted;
+    return key;
+}
+
+StateKey edgesKey(bool clipped) {
+    StateKey key;
+    key.lines = true;
+    key.clipped = clipped;
+    return key;
+}
+
 StateKey skyBoxKey(bool clipped) {
     StateKey key;
     key.depthWrite = false;
@@ -134,10 +169,12 @@ StateKey skyBoxKey(bool clipped) {
     return key;
 }
 
-PipelineSet::PipelineSet(Device& device, VkDescriptorSetLayout frameLayout, VkDescriptorSetLayout textureLayout)
+PipelineSet::PipelineSet(Device& device, VkDescriptorSetLayout frameLayout, VkDescriptorSetLayout textureLayout,
+                         VkFormat depthFormat)
     : m_device(device)
     , m_frameLayout(frameLayout)
-    , m_textureLayout(textureLayout) {}
+    , m_textureLayout(textureLayout)
+    , m_depthFormat(depthFormat) {}
 
 const GraphicsPipeline& PipelineSet::find(const StateKey& key) {
     if (const auto known = m_pipelines.find(key); known != m_pipelines.end()) return known->second;
@@ -156,7 +193,9 @@ const GraphicsPipeline& PipelineSet::find(const StateKey& key) {
     info.depthTest = true;
     info.depthWrite = key.depthWrite;
     info.depthCompare = toVulkan(key.depthFunc);
-    info.depthFormat = VK_FORMAT_D32_SFLOAT;
+    info.depthFormat = m_depthFormat;
+    info.stencil = stencilState(key.stencil);
+    if (key.lines) info.polygonMode = VK_POLYGON_MODE_LINE;
     info.colorFormats = {VK_FORMAT_R8G8B8A8_UNORM};
     info.blends = {{key.blended, toVulkan(key.source), toVulkan(key.destination), VK_BLEND_OP_ADD, writeMaskOf(key)}};
     info.dynamicStates = {VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE, VK_DYNAMIC_STATE_DEPTH_BIAS};
@@ -164,12 +203,12 @@ const GraphicsPipeline& PipelineSet::find(const StateKey& key) {
 }
 
 std::vector<StateKey> PipelineSet::statesOf(const MaterialLibrary& materials, bool clipped) {
-    std::set<StateKey> states = {
-        depthKey(),          overlayKey(),        skyBoxKey(false), lightKey(false, false), lightKey(true, false),
-        fogKey(true, false), fogKey(false, false)};
-    if (clipped)
-        states.insert(
-            {skyBoxKey(true), lightKey(false, true), lightKey(true, true), fogKey(true, true), fogKey(false, true)});
+    std::set<StateKey> states = {depthKey(), overlayKey(), shadowShadeKey()};
+    for (const bool clips : {false, true}) {
+        if (clips && !clipped) continue;
+        states.insert({skyBoxKey(clips), lightKey(false, clips), lightKey(true, clips), fogKey(true, clips),
+                       fogKey(false, clips), shadowVolumeKey(true, clips), shadowVolumeKey(false, clips)});
+    }
     for (size_t i = 0; i < materials.count(); ++i) {
         for (const Stage& stage : materials.get(static_cast<MaterialId>(i)).stages) {
             states.insert(stageKey(stage, false));

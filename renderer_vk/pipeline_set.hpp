@@ -9,6 +9,8 @@
 
 namespace q3rt {
 
+enum class StencilUse : uint8_t { None, CountUp, CountDown, WhereCounted };
+
 struct StateKey {
     bool blended = false;
     BlendFactor source = BlendFactor::One, destination = BlendFactor::Zero;
@@ -16,7 +18,9 @@ struct StateKey {
     bool depthWrite = true;
     AlphaTest alphaTest = AlphaTest::None;
     Combine combine = Combine::Single;
-    uint8_t pass = 0;     ///< kPass*
+    uint8_t pass = 0; ///< kPass*
+    StencilUse stencil = StencilUse::None;
+    bool lines = false;   ///< edges of the triangles
     bool clipped = false; ///< portal views
     auto operator<=>(const StateKey&) const = default;
 };
@@ -28,12 +32,19 @@ StateKey fogKey(bool depthEqual, bool clipped);
 StateKey overlayKey();
 /// Depth alone: what hides other things goes first, so that nothing hidden is shaded.
 StateKey depthKey();
+/// Sides of shadow volumes before what is drawn already.
+StateKey shadowVolumeKey(bool up, bool clipped);
+/// Multiplies what lies in a shadow volume.
+StateKey shadowShadeKey();
+/// White edges over everything: r_showtris.
+StateKey edgesKey(bool clipped);
 /// Opaque, no depth write: sky boxes.
 StateKey skyBoxKey(bool clipped);
 
 class PipelineSet {
   public:
-    PipelineSet(Device& device, VkDescriptorSetLayout frameLayout, VkDescriptorSetLayout textureLayout);
+    PipelineSet(Device& device, VkDescriptorSetLayout frameLayout, VkDescriptorSetLayout textureLayout,
+                VkFormat depthFormat);
     const GraphicsPipeline& find(const StateKey& key);
     /// Every state that drawing these materials needs; `clipped` also those for portal views.
     static std::vector<StateKey> statesOf(const MaterialLibrary& materials, bool clipped);
@@ -43,6 +54,7 @@ class PipelineSet {
   private:
     Device& m_device;
     VkDescriptorSetLayout m_frameLayout, m_textureLayout;
+    VkFormat m_depthFormat;
     std::map<StateKey, GraphicsPipeline> m_pipelines;
 };
 

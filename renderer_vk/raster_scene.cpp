@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/log.hpp"
 #include "gpu/device.hpp"
 
 namespace q3rt {
@@ -59,7 +60,7 @@ struct RasterScene::BoundState {
 RasterScene::RasterScene(GpuContext& context)
     : m_context(context)
     , m_frameLayout(makeFrameLayout(context.device()))
-    , m_pipelines(context.device(), m_frameLayout.handle(), context.textures().layout())
+    , m_pipelines(context.device(), m_frameLayout.handle(), context.textures().layout(), context.depth().info().format)
     , m_vertexStream(context.device(), streamInfo(VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "vertex stream"),
                      context.ring().framesInFlight())
     , m_indexStream(context.device(), streamInfo(VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "index stream"),
@@ -102,7 +103,13 @@ void RasterScene::dropContent() {
     m_data.clear();
 }
 
-void RasterScene::beginFrame() {
+void RasterScene::beginFrame(const RasterSettings& settings) {
+    m_showEdges = settings.r_showtris != 0;
+    if (m_showEdges && !m_context.device().capabilities().fillModeNonSolid) {
+        m_showEdges = false;
+        logLineOnce(LogLevel::Warning, "r_showtris: %s can't draw edges",
+                    m_context.device().capabilities().deviceName.c_str());
+    }
     m_data.clear();
     const uint32_t slot = m_context.ring().slot();
     m_vertexStream.beginFrame(slot);
@@ -122,6 +129,27 @@ void RasterScene::addView(FrameGraph& graph, FrameTargets& targets, const FrameC
     recordPass(graph, targets, pass, first, static_cast<uint32_t>(m_data.views.size()) - first);
 }
 
+void RasterScene::addClear(FrameGraph& graph, FrameTargets& targets) {
+    graph.addPass(
+        "clear",
+        [&](PassBuilder& pass) {
+            targets.color = pass.write(targets.color, access::kColorAttachment);
+            targets.depth = pass.write(targets.depth, access::kDepthAttachment);
+        },
+        [current = targets](PassContext& pass) {
+            // A colour that no map has: what no surface covers shows it.
+            const Attachment color{.view = pass.view(current.color),
+                                   .load = VK_ATTACHMENT_LOAD_OP_CLEAR,
+                                   .clear = {.color = {.float32 = {1.0f, 0.0f, 0.5f, 1.0f}}}};
+            const Attachment depth{.view = pass.view(current.depth),
+                                   .load = VK_ATTACHMENT_LOAD_OP_CLEAR,
+                                   .clear = {.depthStencil = {1.0f, 0}},
+                                   .stencil = true};
+            beginRendering(pass.commands(), pass.extent(current.color), std::span(&color, 1), depth);
+            vkCmdEndRenderingKHR(pass.commands());
+        });
+}
+
 void RasterScene::recordPass(FrameGraph& graph, FrameTargets& targets, const char* name, uint32_t firstView,
                              uint32_t viewCount) {
     graph.addPass(
@@ -139,6 +167,10 @@ void RasterScene::uploadFrame() {
     if (!m_stages) return;
     m_vertexSlice = m_vertexStream.append(std::span<const Vertex>(m_data.vertices));
     m_indexSlice = m_indexStream.append(std::span<const uint32_t>(m_data.indices));
+    if (m_showEdges) {
+        m_edgeStage = static_cast<uint32_t>(m_data.ownStages.size());
+        m_data.ownStages.push_back(colorStage(vec4(1.0f)));
+    }
     // One buffer of stages: the materials' first, then those of sky boxes and cinematics.
     const auto& table = m_stages->states();
     m_tableStageCount = static_cast<uint32_t>(table.size());
@@ -170,7 +202,7 @@ void RasterScene::bindFrame(PassContext& pass) {
 
 void RasterScene::recordViews(PassContext& pass, FrameTargets targets, uint32_t firstView, uint32_t viewCount) {
     const Attachment color{.view = pass.view(targets.color)};
-    const Attachment depth{.view = pass.view(targets.depth)};
+    const Attachment depth{.view = pass.view(targets.depth), .stencil = true};
     beginRendering(pass.commands(), pass.extent(targets.color), std::span(&color, 1), depth);
     bindFrame(pass);
     for (uint32_t i = 0; i < viewCount; ++i)
@@ -183,9 +215,10 @@ void RasterScene::recordView(PassContext& pass, const ViewDraw& view, VkExtent2D
     if (scissor.extent.width == 0 || scissor.extent.height == 0) return;
     vkCmdSetScissor(pass.commands(), 0, 1, &scissor);
     m_bound->range = -1;
+    constexpr VkImageAspectFlags kDepthStencil = VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
     VkClearAttachment clears[2] = {};
     uint32_t clearCount = 0;
-    if (view.clearDepth) clears[clearCount++] = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, {.depthStencil = {1.0f, 0}}};
+    if (view.clearDepth) clears[clearCount++] = {kDepthStencil, 0, {.depthStencil = {1.0f, 0}}};
     if (view.clearColor) {
         const float grey = view.clearGrey;
         clears[clearCount++] = {VK_IMAGE_ASPECT_COLOR_BIT, 0, {.color = {.float32 = {grey, grey, grey, 1.0f}}}};
@@ -193,8 +226,11 @@ void RasterScene::recordView(PassContext& pass, const ViewDraw& view, VkExtent2D
     const VkClearRect area{scissor, 0, 1};
     if (clearCount > 0) vkCmdClearAttachments(pass.commands(), clearCount, clears, 1, &area);
     if (m_depthFirst) recordDepth(pass.commands(), view);
-    for (uint32_t i = 0; i < view.batchCount; ++i)
-        recordBatch(pass.commands(), view, m_data.batches[view.firstBatch + i]);
+    for (uint32_t i = 0; i < view.batchCount; ++i) {
+        const DrawBatch& batch = m_data.batches[view.firstBatch + i];
+        recordBatch(pass.commands(), view, batch);
+        if (m_showEdges && batch.own == OwnDraw::None) recordEdges(pass.commands(), view, batch);
+    }
 }
 
 void RasterScene::recordDepth(VkCommandBuffer commands, const ViewDraw& view) {
@@ -214,14 +250,20 @@ void RasterScene::recordDepth(VkCommandBuffer commands, const ViewDraw& view) {
     }
 }
 
+void RasterScene::recordEdges(VkCommandBuffer commands, const ViewDraw& view, DrawBatch batch) {
+    batch.depthRange = DepthRange::Near;
+    RasterDraw constants{};
+    constants.entity = batch.entity;
+    constants.stage = m_tableStageCount + m_edgeStage;
+    draw(commands, edgesKey(view.clipped), constants, batch, false, m_materials->get(batch.material).cull, view);
+}
+
 void RasterScene::recordBatch(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch) {
     const Material& material = m_materials->get(batch.material);
     RasterDraw constants{};
     constants.entity = batch.entity;
-    if (batch.ownStages) {
-        constants.stage = m_tableStageCount + (batch.stages.first & ~kOwnStageBit);
-        draw(commands, batch.blendOwn ? overlayKey() : skyBoxKey(view.clipped), constants, batch, false,
-             batch.blendOwn ? CullMode::None : CullMode::Front, view);
+    if (batch.own != OwnDraw::None) {
+        recordOwn(commands, view, batch, constants);
         return;
     }
     if (batch.fog >= 0) constants.fog = static_cast<uint32_t>(batch.fog);
@@ -243,6 +285,27 @@ void RasterScene::recordBatch(VkCommandBuffer commands, const ViewDraw& view, co
     if (batch.fog >= 0 && (opaque || (material.contentFlags & surfaceParm::kContentsFog) != 0)) {
         constants.pass = kPassFog;
         draw(commands, fogKey(opaque, view.clipped), constants, batch, material.polygonOffset, material.cull, view);
+    }
+}
+
+void RasterScene::recordOwn(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch,
+                            RasterDraw constants) {
+    constants.stage = m_tableStageCount + (batch.stages.first & ~kOwnStageBit);
+    switch (batch.own) {
+    case OwnDraw::SkyBox:
+        draw(commands, skyBoxKey(view.clipped), constants, batch, false, CullMode::Front, view);
+        break;
+    case OwnDraw::ShadowVolume:
+        draw(commands, shadowVolumeKey(true, view.clipped), constants, batch, false, CullMode::Back, view);
+        draw(commands, shadowVolumeKey(false, view.clipped), constants, batch, false, CullMode::Front, view);
+        break;
+    case OwnDraw::ShadowShade:
+        draw(commands, shadowShadeKey(), constants, batch, false, CullMode::None, view);
+        break;
+    case OwnDraw::Overlay:
+    case OwnDraw::None:
+        draw(commands, overlayKey(), constants, batch, false, CullMode::None, view);
+        break;
     }
 }
 

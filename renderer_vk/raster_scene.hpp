@@ -35,7 +35,9 @@ class RasterScene {
     /// Creates and warms the pipelines of all materials known now.
     void warmPipelines();
 
-    void beginFrame();
+    void beginFrame(const RasterSettings& settings);
+    /// A pass "clear" that fills the targets: r_clear.
+    void addClear(FrameGraph& graph, FrameTargets& targets);
     /// A pass named `pass` that draws the scene (portals first) by rasterising.
     void addView(FrameGraph& graph, FrameTargets& targets, const FrameCommands& frame, const SceneView& scene,
                  const DrawListSettings& settings, const char* pass);
@@ -55,7 +57,9 @@ class RasterScene {
     void recordViews(PassContext& pass, FrameTargets targets, uint32_t firstView, uint32_t viewCount);
     void recordView(PassContext& pass, const ViewDraw& view, VkExtent2D extent);
     void recordDepth(VkCommandBuffer commands, const ViewDraw& view);
+    void recordEdges(VkCommandBuffer commands, const ViewDraw& view, DrawBatch batch);
     void recordBatch(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch);
+    void recordOwn(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch, RasterDraw constants);
     void draw(VkCommandBuffer commands, const StateKey& key, const RasterDraw& constants, const DrawBatch& batch,
               bool polygonOffset, CullMode cull, const ViewDraw& view);
     void bindFrame(PassContext& pass);
@@ -79,7 +83,8 @@ class RasterScene {
     BufferSlice m_vertexSlice, m_indexSlice, m_stageSlice, m_entitySlice, m_lightSlice, m_fogSlice;
     VkDescriptorSet m_frameSet = VK_NULL_HANDLE;
     uint32_t m_tableStageCount = 0;
-    bool m_depthFirst = false;
+    bool m_depthFirst = false, m_showEdges = false;
+    uint32_t m_edgeStage = 0; ///< of FrameDrawData::ownStages
     float m_offsetFactor = -1, m_offsetUnits = -2;
     struct BoundState;
     std::unique_ptr<BoundState> m_bound;

@@ -50,7 +50,7 @@ void RasterScene::addUiPicture(const Picture& picture, uint32_t entity, int cloc
     const MaterialId remapped = m_materials->get(asked).remappedTo;
     const MaterialId id = remapped ? remapped : asked;
     auto& batches = m_data.batches;
-    if (batches.size() > firstBatch && !batches.back().ownStages && batches.back().material == id) {
+    if (batches.size() > firstBatch && batches.back().own == OwnDraw::None && batches.back().material == id) {
         appendQuad(picture);
         batches.back().indexCount += 6;
         return;
@@ -72,7 +72,7 @@ void RasterScene::addUiCinematic(const CinematicPicture& picture, uint32_t entit
     DrawBatch batch;
     batch.source = VertexSource::Dynamic;
     batch.entity = entity;
-    batch.ownStages = batch.blendOwn = true;
+    batch.own = OwnDraw::Overlay;
     batch.stages = {kOwnStageBit | static_cast<uint32_t>(m_data.ownStages.size()), 1};
     batch.firstIndex = static_cast<uint32_t>(m_data.indices.size());
     batch.indexCount = 6;
@@ -132,7 +132,7 @@ void RasterScene::warmPipelines() {
                                      access::kColorAttachment.layout});
         depth.transition(commands, {access::kDepthAttachment.stages, access::kDepthAttachment.access,
                                     access::kDepthAttachment.layout});
-        const Attachment color{.view = target.view()}, depthAttachment{.view = depth.view()};
+        const Attachment color{.view = target.view()}, depthAttachment{.view = depth.view(), .stencil = true};
         beginRendering(commands, target.extent(), std::span(&color, 1), depthAttachment);
         const VkDeviceSize offset = 0;
         const VkBuffer vertices = buffer.handle();

@@ -11,6 +11,8 @@
 
 namespace q3rt {
 
+/// Far distance over the half size of the sky cube: its corners stay inside.
+inline constexpr float kSkyPart = 1.75f;
 inline constexpr int kSkyFaces = 6;      ///< +X -X +Y -Y +Z -Z: images rt lf bk ft up dn
 inline constexpr int kSkyCloudFaces = 5; ///< clouds never show below
 inline constexpr int kSkyBlocks = 8;     ///< blocks a face side

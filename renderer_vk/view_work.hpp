@@ -24,7 +24,8 @@ struct DrawListBuilder::ViewWork {
     std::vector<int> fogIndices;    ///< by fog number, -1 not yet
     std::vector<CullResult> entityCull;
     std::vector<int> deformedSurface; ///< by world surface: index in geometry.surfaces, -1 drawn as it is
-    uint32_t vertexBase = 0;          ///< of geometry.vertices in out.vertices
+    bool skyDrawn = false;
+    uint32_t vertexBase = 0; ///< of geometry.vertices in out.vertices
 
     bool hasWorld() const { return (view.scene->flags & viewFlag::kNoWorldModel) == 0; }
     std::span<const SceneLight> lights() const {

@@ -48,6 +48,13 @@ uint32_t countMips(VkExtent2D extent) {
 
 bool isDepthFormat(VkFormat format) { return format >= VK_FORMAT_D16_UNORM && format <= VK_FORMAT_D32_SFLOAT_S8_UINT; }
 
+VkFormat depthStencilFormat(const Device& device) {
+    VkFormatProperties properties;
+    vkGetPhysicalDeviceFormatProperties(device.physical(), VK_FORMAT_D24_UNORM_S8_UINT, &properties);
+    const bool has24 = properties.optimalTilingFeatures & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT;
+    return has24 ? VK_FORMAT_D24_UNORM_S8_UINT : VK_FORMAT_D32_SFLOAT_S8_UINT; // one of the two is always there
+}
+
 VkImageAspectFlags aspectOf(VkFormat format) {
     switch (format) {
     case VK_FORMAT_D16_UNORM:

@@ -25,6 +25,8 @@ struct ImageInfo {
 /// Levels down to 1x1.
 uint32_t countMips(VkExtent2D extent);
 bool isDepthFormat(VkFormat format);
+/// Depth of 24 bits, as OpenGL's windows have it, or of 32 where the device lacks that; 8 bits of stencil.
+VkFormat depthStencilFormat(const Device& device);
 VkImageAspectFlags aspectOf(VkFormat format);
 /// Bytes of one texel of an uncompressed format that this code uploads or reads back; throws UsageError for others.
 uint32_t texelBytes(VkFormat format);

@@ -36,7 +36,13 @@ VkPipelineDepthStencilStateCreateInfo depthState(const GraphicsPipelineInfo& inf
     depth.depthTestEnable = info.depthTest;
     depth.depthWriteEnable = info.depthWrite;
     depth.depthCompareOp = info.depthCompare;
+    depth.stencilTestEnable = info.stencil.has_value();
+    if (info.stencil) depth.front = depth.back = *info.stencil;
     return depth;
+}
+
+bool hasStencil(VkFormat format) {
+    return format != VK_FORMAT_UNDEFINED && (aspectOf(format) & VK_IMAGE_ASPECT_STENCIL_BIT) != 0;
 }
 
 VkRenderingAttachmentInfoKHR attachmentInfo(const Attachment& attachment, VkImageLayout layout) {
@@ -84,6 +90,7 @@ GraphicsPipeline::GraphicsPipeline(Device& device, const GraphicsPipelineInfo& i
     rendering.colorAttachmentCount = static_cast<uint32_t>(info.colorFormats.size());
     rendering.pColorAttachmentFormats = info.colorFormats.data();
     rendering.depthAttachmentFormat = info.depthFormat;
+    if (hasStencil(info.depthFormat)) rendering.stencilAttachmentFormat = info.depthFormat;
 
     VkGraphicsPipelineCreateInfo create{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
     create.pNext = &rendering;
@@ -122,6 +129,7 @@ void beginRendering(VkCommandBuffer commands, VkExtent2D extent, std::span<const
     rendering.colorAttachmentCount = static_cast<uint32_t>(colorInfos.size());
     rendering.pColorAttachments = colorInfos.data();
     rendering.pDepthAttachment = depth.view ? &depthInfo : nullptr;
+    rendering.pStencilAttachment = depth.view && depth.stencil ? &depthInfo : nullptr;
     vkCmdBeginRenderingKHR(commands, &rendering);
     const VkViewport viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
     vkCmdSetViewport(commands, 0, 1, &viewport);

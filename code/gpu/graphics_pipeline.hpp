@@ -2,6 +2,8 @@
 // A raster pipeline for dynamic rendering. Viewport and scissor are always dynamic; other state is fixed unless listed
 // in `dynamicStates`.
 
+#include <optional>
+
 #include "gpu/pipeline.hpp"
 
 namespace q3rt {
@@ -38,6 +40,7 @@ struct GraphicsPipelineInfo {
     bool depthTest = false;
     bool depthWrite = false;
     VkCompareOp depthCompare = VK_COMPARE_OP_LESS_OR_EQUAL;
+    std::optional<VkStencilOpState> stencil; // of both sides; none: no test. Needs a depth format with stencil.
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
 
     std::vector<VkFormat> colorFormats{VK_FORMAT_R8G8B8A8_UNORM};
@@ -63,6 +66,7 @@ struct Attachment {
     VkAttachmentLoadOp load = VK_ATTACHMENT_LOAD_OP_LOAD;
     VkClearValue clear{};
     VkAttachmentStoreOp store = VK_ATTACHMENT_STORE_OP_STORE;
+    bool stencil = false; // a depth attachment whose format has stencil too
 };
 
 /// Begins dynamic rendering over `extent` with a full viewport (depth 0..1, y down as Vulkan has it) and scissor.

@@ -18,9 +18,10 @@ double sceneSeconds(const SceneView& view) { return view.timeMs * 0.001; }
 bool isHidden(const ViewBuild& build, const SceneEntity& entity) {
     if (build.settings.keepHiddenEntities) return false;
     if (build.settings.isPortalView) return (entity.flags & entityFlag::kFirstPerson) != 0;
-    const bool isInline =
-        entity.kind == EntityKind::Model && build.models.get(entity.model).kind == Model::Kind::Inline;
-    return (entity.flags & entityFlag::kThirdPerson) != 0 && !isInline;
+    if (!(entity.flags & entityFlag::kThirdPerson)) return false;
+    const Model::Kind kind = entity.kind == EntityKind::Model ? build.models.get(entity.model).kind : Model::Kind::Bad;
+    const bool castsShadow = kind == Model::Kind::Mesh && build.settings.shadows == Shadows::Projected;
+    return kind != Model::Kind::Inline && !castsShadow;
 }
 
 void addWorldRecord(const ViewBuild& build) {

@@ -39,6 +39,7 @@ struct EntitySurface {
     int frame = 0, oldFrame = 0; ///< of `source`, valid frame numbers
     float backLerp = 0;          ///< weight of oldFrame; 0 when the frames are equal
     bool singleFrame = false;    ///< of a model with one frame: `source` alone says what it looks like, if not deformed
+    bool castsVolume = false;    ///< Shadows::Volume
     bool deformed = false;       ///< vertices are not those of `source` at these frames: don't cache
 };
 
@@ -56,6 +57,9 @@ struct ViewGeometry {
     std::vector<uint32_t> recordOfInlineModel; ///< by BSP submodel; 0 not in the view
 };
 
+/// What models cast (cg_shadows); a blob below them is the game's own.
+enum class Shadows : uint8_t { None, Volume, Projected };
+
 struct ViewGeometrySettings {
     float identityLight = 1;
     float ambientScale = 0.6f, directedScale = 1.0f;
@@ -66,7 +70,9 @@ struct ViewGeometrySettings {
     bool isPortalView = false, mirrored = false;
     /// Mesh models wholly behind one of these planes (normals inward) get a record and no geometry. Empty: none.
     std::span<const Plane> cullPlanes;
-    bool deformWorld = true; ///< append deformed copies of world surfaces whose material has deforms
+    Shadows shadows = Shadows::None;
+    MaterialId projectionShadow = 0; ///< what Shadows::Projected draws models with once more
+    bool deformWorld = true;         ///< append deformed copies of world surfaces whose material has deforms
     /// Keep first-person and third-person entities alike (EntityRecord::flags tells them apart): for a tracer whose
     /// camera rays and mirror rays see different ones by instance mask.
     bool keepHiddenEntities = false;

@@ -57,9 +57,8 @@ void appendDeformed(const ViewBuild& build, const Material& material, const Defo
 }
 
 void addMeshSurface(const ViewBuild& build, const SceneEntity& entity, const AnimatedMesh& mesh,
-                    const ModelSurface& source, uint32_t record, const FramePair& frames, int fog) {
-    const MaterialId material =
-        surfaceMaterial(build.models, source, entity.customShader, entity.customSkin, entity.skinNumber);
+                    const ModelSurface& source, MaterialId material, uint32_t record, const FramePair& frames,
+                    int fog) {
     EntitySurface& surface = openSurface(build, material, record);
     surface.fog = fog;
     surface.source = &source;
@@ -108,8 +107,20 @@ void addMesh(const ViewBuild& build, const SceneEntity& entity, int sceneIndex, 
     }
     if (isOutside(build.settings.cullPlanes, build.out.entities[record].worldBounds)) return;
     lod.mesh->pose(frames, build.out.bones);
+    const bool isSeen =
+        build.settings.isPortalView || build.settings.keepHiddenEntities || !(entity.flags & entityFlag::kThirdPerson);
+    constexpr float kOpaqueSort = 3;
     for (const ModelSurface& source : lod.surfaces) {
-        addMeshSurface(build, entity, *lod.mesh, source, record, frames, fog);
+        const MaterialId material =
+            surfaceMaterial(build.models, source, entity.customShader, entity.customSkin, entity.skinNumber);
+        const bool casts = fog == 0 && build.materials.get(material).sort == kOpaqueSort;
+        if (isSeen) {
+            addMeshSurface(build, entity, *lod.mesh, source, material, record, frames, fog);
+            build.out.surfaces.back().castsVolume = casts && build.settings.shadows == Shadows::Volume &&
+                                                    !(entity.flags & (entityFlag::kNoShadow | entityFlag::kDepthHack));
+        }
+        if (casts && build.settings.shadows == Shadows::Projected && (entity.flags & entityFlag::kShadowPlane))
+            addMeshSurface(build, entity, *lod.mesh, source, build.settings.projectionShadow, record, frames, 0);
     }
 }
 

@@ -115,11 +115,19 @@ TEST(RasterDraw, MapIsDrawnWithoutValidationMessages) {
     drawFrame(renderer, services, view, shader); // times are known when their frame's slot comes round
     EXPECT_EQ(renderer.pipelineCount(), warmed) << "a pipeline was made during play";
     keepImage("spawn0", first);
+    services.setCvar("r_showtris", "1");
+    EXPECT_NE(first, drawFrame(renderer, services, view, shader)) << "edges are not drawn";
+    services.setCvar("r_showtris", "0");
     size_t bright = 0;
     for (const uint8_t value : first)
         bright += value > 16 ? 1u : 0u;
     EXPECT_GT(bright, first.size() / 4) << "the picture is mostly black";
     EXPECT_EQ(first, second) << "the same frame twice gives two pictures";
+    for (const char* setting : {"cg_shadows", "r_drawSun", "r_clear"}) {
+        services.setCvar(setting, setting == std::string("cg_shadows") ? "2" : "1");
+        EXPECT_EQ(first, drawFrame(renderer, services, view, shader)) << setting << ": no model, no sky, nothing bare";
+        services.setCvar(setting, "0");
+    }
     services.setCvar("r_depthFirst", "0");
     EXPECT_EQ(first, drawFrame(renderer, services, view, shader)) << "depth first changes the picture";
     EXPECT_NE(services.cvar("q3rt_stats", "", 0).string().find("\"world view\""), std::string::npos);

@@ -6,6 +6,7 @@
 
 #include "renderer_vk/draw_list.hpp"
 #include "renderer_vk/portal.hpp"
+#include "renderer_vk/shadow_volume.hpp"
 #include "renderer_vk/sky.hpp"
 #include "renderer_vk/view_setup.hpp"
 
@@ -169,6 +170,23 @@ TEST(RasterLights, SurfacesKeepLightsThatDoNotReachTheirLeafAnyMore) {
     lights.findReached(world, visible, std::span(both).first(1));
     EXPECT_TRUE(lights.reaching(1).empty());
     EXPECT_EQ(lights.touching(1), std::vector<uint32_t>{1});
+}
+
+TEST(RasterShadows, VolumeStandsOnTheOutlineOfWhatFacesTheLight) {
+    // A square of two triangles, and the same turned away: the outline is the first one's four sides.
+    std::vector<Vertex> vertices(8), sides;
+    for (size_t i = 0; i < 8; ++i)
+        vertices[i].position = vec3(i & 1 ? 1 : 0, i & 2 ? 1 : 0, i & 4 ? 5 : 0);
+    const std::vector<uint32_t> indices = {10, 11, 12, 12, 11, 13, 16, 15, 14, 16, 17, 15};
+    std::vector<uint32_t> triangles;
+    ShadowVolumeBuilder().append(vertices, indices, 10, vec3(0, 0, 1), sides, triangles);
+    EXPECT_EQ(triangles.size(), 4u * 6u);
+    float lowest = 0;
+    for (const Vertex& vertex : sides) {
+        EXPECT_TRUE(vertex.position.z == 0 || vertex.position.z == -kShadowLengthQu) << vertex.position.z;
+        lowest = std::min(lowest, vertex.position.z);
+    }
+    EXPECT_EQ(lowest, -kShadowLengthQu);
 }
 
 TEST(RasterSky, CoverageIsRoundedOutwardToBlocks) {

@@ -61,6 +61,36 @@ class EntityGeometryTest : public testing::Test {
     vec3 vertex(size_t i) const { return m_geometry.vertices[i].position; }
 };
 
+TEST_F(EntityGeometryTest, ShadowsAreCastByWhoAsksForThem) {
+    m_settings.projectionShadow = static_cast<MaterialId>(m_shader);
+    const auto surfaces = [&](Shadows shadows, uint32_t flags) {
+        m_settings.shadows = shadows;
+        m_frame.entities.clear();
+        add(EntityKind::Model).flags = flags;
+        return build().surfaces;
+    };
+    const auto shadowed = surfaces(Shadows::Projected, entityFlag::kShadowPlane);
+    ASSERT_EQ(shadowed.size(), 2u);
+    EXPECT_EQ(shadowed[1].material, m_settings.projectionShadow);
+    EXPECT_EQ(surfaces(Shadows::Projected, 0).size(), 1u);
+    const auto own = surfaces(Shadows::Projected, entityFlag::kShadowPlane | entityFlag::kThirdPerson);
+    ASSERT_EQ(own.size(), 1u) << "one's own body casts a shadow and is not seen";
+    EXPECT_EQ(own[0].material, m_settings.projectionShadow);
+    EXPECT_TRUE(surfaces(Shadows::Volume, 0)[0].castsVolume);
+    EXPECT_FALSE(surfaces(Shadows::Volume, entityFlag::kNoShadow)[0].castsVolume);
+    EXPECT_FALSE(surfaces(Shadows::Volume, entityFlag::kDepthHack)[0].castsVolume);
+    EXPECT_TRUE(surfaces(Shadows::Volume, entityFlag::kThirdPerson).empty());
+}
+
+TEST_F(EntityGeometryTest, ModelsOutsideThePlanesAreNotAnimated) {
+    const Plane ahead{vec3(1, 0, 0), 1000};
+    m_settings.cullPlanes = std::span(&ahead, 1);
+    add(EntityKind::Model);
+    EXPECT_TRUE(build().vertices.empty());
+    m_frame.entities[0].orientation.origin = vec3(2000, 0, 0);
+    EXPECT_FALSE(build().vertices.empty());
+}
+
 TEST_F(EntityGeometryTest, ModelIsBlendedBetweenFrames) {
     SceneEntity& entity = add(EntityKind::Model);
     entity.frame = 1;
