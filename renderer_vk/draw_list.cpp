@@ -34,11 +34,15 @@ DrawListBuilder::DrawListBuilder(const MaterialLibrary& materials, const ModelLi
     , m_models(models)
     , m_stages(stages)
     , m_world(world) {
+    for (auto& memory : m_memory)
+        memory = std::make_unique<ViewMemory>();
     if (!world) return;
     m_visibility = std::make_unique<WorldVisibility>(*world);
     m_lights = std::make_unique<SurfaceLights>(world->surfaces.size());
     m_handled.resize(world->surfaces.size());
 }
+
+DrawListBuilder::~DrawListBuilder() = default;
 
 MaterialId DrawListBuilder::drawnId(MaterialId id) const {
     const MaterialId other = m_materials.get(id).remappedTo;
@@ -48,7 +52,7 @@ MaterialId DrawListBuilder::drawnId(MaterialId id) const {
 void DrawListBuilder::addScene(const FrameCommands& frame, const SceneView& scene, const DrawListSettings& settings,
                                FrameDrawData& out) {
     m_surfaceCount = 0;
-    ViewWork work(frame, settings, makeMainView(scene, settings.raster.r_znear), out);
+    ViewWork work(frame, settings, makeMainView(scene, settings.raster.r_znear), *m_memory[0], out);
     buildView(work);
 }
 
@@ -79,7 +83,7 @@ void DrawListBuilder::buildView(ViewWork& work) {
     ++m_stamp;
     if (world && work.settings.drawWorld) addWorld(work);
     addEntities(work);
-    std::ranges::stable_sort(work.items, {}, &Item::key);
+    std::ranges::sort(work.items, {}, [](const Item& item) { return std::pair(item.key, item.order); });
     m_surfaceCount += work.items.size();
 
     const bool portalShown = !work.view.portal && addPortalView(work);
@@ -148,7 +152,7 @@ void DrawListBuilder::addWorldSurface(ViewWork& work, uint32_t index, uint32_t e
     const uint64_t key = makeSortKey(m_materials.get(surface.material).sortRank, record.sceneIndex, surface.fog, lit);
     const int deformed = work.deformedSurface[index];
     work.items.push_back({key, deformed >= 0 ? static_cast<uint32_t>(deformed) : index, entity, surface.material,
-                          surface.fog, deformed < 0, lit});
+                          surface.fog, deformed < 0, lit, static_cast<uint32_t>(work.items.size())});
 }
 
 void DrawListBuilder::addBrushModel(ViewWork& work, uint32_t index) {
@@ -184,7 +188,8 @@ void DrawListBuilder::addEntities(ViewWork& work) {
         const int sceneIndex = surface.isPoly ? -1 : entities[surface.entity].sceneIndex;
         const Material& material = m_materials.get(surface.material);
         work.items.push_back({makeSortKey(material.sortRank, sceneIndex, surface.fog, false), static_cast<uint32_t>(i),
-                              surface.entity, surface.material, surface.fog, false, false});
+                              surface.entity, surface.material, surface.fog, false, false,
+                              static_cast<uint32_t>(work.items.size())});
     };
     for (size_t i = 0; i < work.geometry.surfaces.size(); ++i)
         if (work.geometry.surfaces[i].isPoly) add(i);
@@ -239,7 +244,7 @@ bool DrawListBuilder::addPortalView(ViewWork& work) {
         const float range = m_materials.get(drawnId(item.material)).portalRange;
         if (!mirror || !portalVisible(work.view, {positions, normals, indices, plane}, range, *mirror)) continue;
         const auto view = makePortalView(work.view, plane, match, work.entities());
-        ViewWork portal(work.frame, work.settings, *view, work.out);
+        ViewWork portal(work.frame, work.settings, *view, *m_memory[1], work.out);
         buildView(portal);
         return true;
     }

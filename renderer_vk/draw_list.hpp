@@ -2,6 +2,7 @@
 // From a scene to batches in the original's order: visible world surfaces, polys and entities, sorted by shader rank,
 // entity, fog and light (spec of world section 3), portals first. Pure CPU.
 
+#include <array>
 #include <memory>
 
 #include "renderer_vk/draw_data.hpp"
@@ -31,6 +32,7 @@ class DrawListBuilder {
   public:
     DrawListBuilder(const MaterialLibrary& materials, const ModelLibrary& models, StageTable& stages,
                     const World* world);
+    ~DrawListBuilder();
     /// Appends the views of one RenderScene: the portal's first, then its own.
     void addScene(const FrameCommands& frame, const SceneView& scene, const DrawListSettings& settings,
                   FrameDrawData& out);
@@ -46,8 +48,10 @@ class DrawListBuilder {
         int fog;
         bool fromWorld; ///< world vertices
         bool lit;
+        uint32_t order; ///< of submission: it decides between equal keys
     };
-    struct ViewWork; // of one view, in draw_list.cpp
+    struct ViewWork; // of one view, in view_work.hpp
+    struct ViewMemory;
 
     void buildView(ViewWork& work);
     void findDeformed(ViewWork& work);
@@ -80,8 +84,9 @@ class DrawListBuilder {
     std::unique_ptr<WorldVisibility> m_visibility;
     std::unique_ptr<SurfaceLights> m_lights;
     ShadowVolumeBuilder m_shadowVolumes;
-    std::vector<uint32_t> m_batchLights; ///< of the batch at hand
-    std::vector<uint32_t> m_handled;     ///< stamp by world surface: once a view, also by brush models
+    std::array<std::unique_ptr<ViewMemory>, 2> m_memory; ///< of the view, of a portal's in it
+    std::vector<uint32_t> m_batchLights;                 ///< of the batch at hand
+    std::vector<uint32_t> m_handled;                     ///< stamp by world surface: once a view, also by brush models
     uint32_t m_stamp = 0;
     size_t m_surfaceCount = 0;
 };

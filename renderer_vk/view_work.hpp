@@ -5,18 +5,8 @@
 
 namespace q3rt {
 
-struct DrawListBuilder::ViewWork {
-    ViewWork(const FrameCommands& frameCommands, const DrawListSettings& listSettings, const RasterView& rasterView,
-             FrameDrawData& data)
-        : frame(frameCommands)
-        , settings(listSettings)
-        , view(rasterView)
-        , out(data) {}
-
-    const FrameCommands& frame;
-    const DrawListSettings& settings;
-    RasterView view;
-    FrameDrawData& out;
+/// Lists of one view, kept for their memory.
+struct DrawListBuilder::ViewMemory {
     VisibleWorld visible;
     ViewGeometry geometry;
     std::vector<Item> items;
@@ -24,6 +14,35 @@ struct DrawListBuilder::ViewWork {
     std::vector<int> fogIndices;    ///< by fog number, -1 not yet
     std::vector<CullResult> entityCull;
     std::vector<int> deformedSurface; ///< by world surface: index in geometry.surfaces, -1 drawn as it is
+};
+
+struct DrawListBuilder::ViewWork {
+    ViewWork(const FrameCommands& frameCommands, const DrawListSettings& listSettings, const RasterView& rasterView,
+             ViewMemory& memory, FrameDrawData& data)
+        : frame(frameCommands)
+        , settings(listSettings)
+        , view(rasterView)
+        , out(data)
+        , visible(memory.visible)
+        , geometry(memory.geometry)
+        , items(memory.items)
+        , entityIndices(memory.entityIndices)
+        , fogIndices(memory.fogIndices)
+        , entityCull(memory.entityCull)
+        , deformedSurface(memory.deformedSurface) {
+        items.clear();
+    }
+
+    const FrameCommands& frame;
+    const DrawListSettings& settings;
+    RasterView view;
+    FrameDrawData& out;
+    VisibleWorld& visible;
+    ViewGeometry& geometry;
+    std::vector<Item>& items;
+    std::vector<int>&entityIndices, &fogIndices;
+    std::vector<CullResult>& entityCull;
+    std::vector<int>& deformedSurface;
     bool skyDrawn = false;
     uint32_t vertexBase = 0; ///< of geometry.vertices in out.vertices
 
