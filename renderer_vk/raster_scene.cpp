@@ -225,12 +225,20 @@ void RasterScene::recordView(PassContext& pass, const ViewDraw& view, VkExtent2D
     }
     const VkClearRect area{scissor, 0, 1};
     if (clearCount > 0) vkCmdClearAttachments(pass.commands(), clearCount, clears, 1, &area);
-    if (m_depthFirst) recordDepth(pass.commands(), view);
+    if (m_depthFirst && depthFirstPays(view)) recordDepth(pass.commands(), view);
     for (uint32_t i = 0; i < view.batchCount; ++i) {
         const DrawBatch& batch = m_data.batches[view.firstBatch + i];
         recordBatch(pass.commands(), view, batch);
         if (m_showEdges && batch.own == OwnDraw::None) recordEdges(pass.commands(), view, batch);
     }
+}
+
+/// A vertex costs about what a pixel does: a small picture is shaded sooner than its depth is drawn.
+bool RasterScene::depthFirstPays(const ViewDraw& view) const {
+    size_t vertices = 0;
+    for (const DrawBatch& batch : std::span(m_data.batches).subspan(view.firstBatch, view.batchCount))
+        if (batch.depthFirst) vertices += batch.indexCount;
+    return vertices < static_cast<size_t>(view.width) * static_cast<size_t>(view.height);
 }
 
 void RasterScene::recordDepth(VkCommandBuffer commands, const ViewDraw& view) {

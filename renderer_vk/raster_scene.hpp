@@ -56,6 +56,7 @@ class RasterScene {
   private:
     void recordViews(PassContext& pass, FrameTargets targets, uint32_t firstView, uint32_t viewCount);
     void recordView(PassContext& pass, const ViewDraw& view, VkExtent2D extent);
+    bool depthFirstPays(const ViewDraw& view) const;
     void recordDepth(VkCommandBuffer commands, const ViewDraw& view);
     void recordEdges(VkCommandBuffer commands, const ViewDraw& view, DrawBatch batch);
     void recordBatch(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch);
