@@ -5,6 +5,7 @@
 namespace q3rt {
 
 void GpuRenderer::drawFrame(const FrameCommands& frame, FrameImage* capture) {
+    m_context->ring().timers().enabled = wantsTimes();
     m_context->beginFrame();
     followTextures(false);
     m_stages->beginFrame();

@@ -111,6 +111,7 @@ void RasterScene::beginFrame(const RasterSettings& settings) {
                     m_context.device().capabilities().deviceName.c_str());
     }
     m_data.clear();
+    m_runs.clear();
     const uint32_t slot = m_context.ring().slot();
     m_vertexStream.beginFrame(slot);
     m_indexStream.beginFrame(slot);
@@ -152,15 +153,21 @@ void RasterScene::addClear(FrameGraph& graph, FrameTargets& targets) {
 
 void RasterScene::recordPass(FrameGraph& graph, FrameTargets& targets, const char* name, uint32_t firstView,
                              uint32_t viewCount) {
+    if (!m_runs.empty() && graph.passes().size() == m_graphPasses) {
+        m_runs.back().viewCount += viewCount;
+        return;
+    }
+    m_runs.push_back({firstView, viewCount});
     graph.addPass(
         name,
         [&](PassBuilder& pass) {
             targets.color = pass.write(targets.color, access::kColorAttachment);
             targets.depth = pass.write(targets.depth, access::kDepthAttachment);
         },
-        [this, current = targets, firstView, viewCount](PassContext& pass) {
-            recordViews(pass, current, firstView, viewCount);
+        [this, current = targets, run = m_runs.size() - 1](PassContext& pass) {
+            recordViews(pass, current, m_runs[run].firstView, m_runs[run].viewCount);
         });
+    m_graphPasses = graph.passes().size();
 }
 
 void RasterScene::uploadFrame() {

@@ -38,10 +38,13 @@ class RasterScene {
     void beginFrame(const RasterSettings& settings);
     /// A pass "clear" that fills the targets: r_clear.
     void addClear(FrameGraph& graph, FrameTargets& targets);
-    /// A pass named `pass` that draws the scene (portals first) by rasterising.
+    /// A pass that draws what is added until another pass comes; the first of them names it. Between two passes the GPU
+    /// waits for the one to end.
+    ///
+    /// Named `pass`: draws the scene (portals first) by rasterising.
     void addView(FrameGraph& graph, FrameTargets& targets, const FrameCommands& frame, const SceneView& scene,
                  const DrawListSettings& settings, const char* pass);
-    /// A pass "ui" that draws a run of pictures and cinematics.
+    /// Named "ui": draws a run of pictures and cinematics.
     void addUi(FrameGraph& graph, FrameTargets& targets, std::span<const FrameCommand> run, int clockMs);
     /// Sends what was gathered to the GPU. Call after the last add, before the graph runs.
     void uploadFrame();
@@ -84,6 +87,11 @@ class RasterScene {
     BufferSlice m_vertexSlice, m_indexSlice, m_stageSlice, m_entitySlice, m_lightSlice, m_fogSlice;
     VkDescriptorSet m_frameSet = VK_NULL_HANDLE;
     uint32_t m_tableStageCount = 0;
+    struct ViewRun {
+        uint32_t firstView = 0, viewCount = 0;
+    };
+    std::vector<ViewRun> m_runs; ///< a pass each
+    size_t m_graphPasses = 0;    ///< when the last of them had been added
     bool m_depthFirst = false, m_showEdges = false;
     uint32_t m_edgeStage = 0; ///< of FrameDrawData::ownStages
     float m_offsetFactor = -1, m_offsetUnits = -2;

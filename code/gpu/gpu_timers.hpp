@@ -22,6 +22,8 @@ class GpuTimers {
     GpuTimers(const GpuTimers&) = delete;
     GpuTimers& operator=(const GpuTimers&) = delete;
 
+    /// Software drivers wait at each timestamp for what was drawn before: off, no row is made.
+    bool enabled = true;
     /// Reads what the frame last in this slot measured (it has finished) and clears the slot.
     void beginFrame(VkCommandBuffer commands, uint32_t slot, uint64_t frame);
     /// The frame's commands will never run: forgets its rows.
