@@ -48,7 +48,8 @@ void GpuRenderer::followTextures(bool flush) {
     const float anisotropy = m_rasterSettings.r_ext_texture_filter_anisotropic != 0
                                  ? static_cast<float>(m_rasterSettings.r_ext_max_anisotropy)
                                  : 1.0f;
-    m_context->textures().follow(textures(), {m_rasterSettings.r_textureMode, anisotropy}, m_context->uploader());
+    m_context->textures().follow(textures(), {m_rasterSettings.r_textureMode, anisotropy}, readsTexels(),
+                                 m_context->uploader());
     if (!m_context->uploader().pending()) return;
     if (flush)
         m_context->uploader().flush();

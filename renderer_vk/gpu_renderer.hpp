@@ -24,6 +24,8 @@ class GpuRenderer : public FrontEnd {
     /// "raster", "pipeline", "query", "compute": goes into q3rt_stats and the renderer string.
     virtual const char* backendName() const = 0;
     virtual const char* rendererName() const = 0;
+    /// Are the pixels of textures read on the CPU after their upload?
+    virtual bool readsTexels() const { return true; }
     /// Does anybody look at the times of passes?
     virtual bool wantsTimes() const { return true; }
     /// The device exists (once); make what does not depend on content.

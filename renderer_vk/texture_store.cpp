@@ -54,7 +54,7 @@ void TextureStore::create(const Texture& texture, Entry& entry, Uploader& upload
     entry.version = texture.version;
 }
 
-void TextureStore::follow(const TextureLibrary& library, const TextureFilter& filter, Uploader& uploader) {
+void TextureStore::follow(TextureLibrary& library, const TextureFilter& filter, bool keepTexels, Uploader& uploader) {
     const bool filterChanged = !(filter == m_filter);
     m_filter = filter;
     for (TextureId id = 0; id < library.count(); ++id) {
@@ -62,6 +62,7 @@ void TextureStore::follow(const TextureLibrary& library, const TextureFilter& fi
         if (id == m_entries.size()) {
             m_entries.emplace_back();
             create(texture, m_entries[id], uploader);
+            if (!keepTexels) library.dropTexels(id);
             if (m_bindless->add(m_entries[id].image->view(), samplerOf(texture)) != id)
                 throw DeviceError("texture slots are out of order: restart the renderer with vid_restart");
             continue;

@@ -25,7 +25,8 @@ class TextureStore {
     /// Forgets all textures (a new library follows). The GPU must be idle.
     void reset();
     /// Uploads textures that are new or whose version rose, into `uploader` (the caller flushes or records it).
-    void follow(const TextureLibrary& library, const TextureFilter& filter, Uploader& uploader);
+    /// Their pixels leave the library unless `keepTexels`.
+    void follow(TextureLibrary& library, const TextureFilter& filter, bool keepTexels, Uploader& uploader);
     VkDescriptorSetLayout layout() const { return m_bindless->layout(); }
     VkDescriptorSet set() const { return m_bindless->set(); } ///< ask while recording
     size_t count() const { return m_entries.size(); }

@@ -14,6 +14,7 @@ class VkRenderer final : public GpuRenderer {
                        const SceneView& scene) override {
         raster().addView(graph, targets, frame, scene, drawListSettings(), "world view");
     }
+    bool readsTexels() const override { return false; }
     bool wantsTimes() const override { return settings().q3rt_wantStats != 0; }
     const char* backendName() const override { return "raster"; }
     const char* rendererName() const override { return "q3rt renderer_vk"; }

@@ -211,7 +211,7 @@ void FrontEnd::printImageList() {
     for (size_t i = 0; i < m_textures->count(); ++i) {
         const Texture& texture = m_textures->get(static_cast<TextureId>(i));
         for (const MipLevel& level : texture.levels)
-            bytes += level.rgba.size();
+            bytes += static_cast<size_t>(level.width) * static_cast<size_t>(level.height) * 4;
         m_engine.print(LogLevel::Info, formatText("%4zu: %4d x %4d %s%s", i, texture.levels.front().width,
                                                   texture.levels.front().height, texture.name.c_str(),
                                                   texture.missing ? " (missing)" : ""));

@@ -140,6 +140,12 @@ TextureId TextureLibrary::addLightmap(int page, const uint8_t* rgb) {
     return add(std::move(texture));
 }
 
+void TextureLibrary::dropTexels(TextureId id) {
+    if (id >= builtinTexture::kScratch0 && id < builtinTexture::kFirstFree) return;
+    for (MipLevel& level : m_textures[id]->levels)
+        level.rgba = {};
+}
+
 void TextureLibrary::setScratch(int slot, int width, int height, const uint8_t* rgba) {
     if (slot < 0 || slot >= builtinTexture::kScratchCount || width <= 0 || height <= 0)
         throw UsageError(formatText("cinematic slot %d of %dx%d pixels; slots are 0 to %d", slot, width, height,

@@ -26,7 +26,7 @@ struct TextureFlags {
 
 struct MipLevel {
     int width = 0, height = 0;
-    std::vector<uint8_t> rgba;
+    std::vector<uint8_t> rgba; ///< empty after dropTexels()
 };
 
 struct Texture {
@@ -67,6 +67,8 @@ class TextureLibrary {
     TextureId addLightmap(int page, const uint8_t* rgb);
     /// Cinematic pixels (RGBA, top row first) into scratch slot 0..31; alpha is ignored.
     void setScratch(int slot, int width, int height, const uint8_t* rgba);
+    /// Frees the pixels of a texture that is on the GPU; its sizes stay. Scratch slots keep theirs.
+    void dropTexels(TextureId id);
     const Texture& get(TextureId id) const { return *m_textures[id]; }
     size_t count() const { return m_textures.size(); }
     const TextureSettings& settings() const { return m_settings; }
