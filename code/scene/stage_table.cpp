@@ -309,7 +309,7 @@ StageState evaluateStage(const Material& material, const Stage& stage, const Sta
 void StageTable::beginFrame() {
     m_states.clear();
     m_keys.clear();
-    m_known.clear();
+    m_heads.assign(kBuckets, kNoKey);
 }
 
 StageRange StageTable::evaluate(MaterialId material, const StageInputs& inputs) {
@@ -324,9 +324,10 @@ StageRange StageTable::evaluate(MaterialId material, const StageInputs& inputs) 
         used.entityTexCoord = inputs.entityTexCoord;
         used.hasEntity = inputs.hasEntity;
     }
-    auto& candidates = m_known[hashInputs(id, used)];
-    for (const auto& [key, range] : candidates)
-        if (m_keys[key].first == id && sameInputs(m_keys[key].second, used)) return range;
+    if (m_heads.empty()) m_heads.assign(kBuckets, kNoKey);
+    uint32_t& head = m_heads[hashInputs(id, used) % kBuckets];
+    for (uint32_t key = head; key != kNoKey; key = m_keys[key].next)
+        if (m_keys[key].material == id && sameInputs(m_keys[key].inputs, used)) return m_keys[key].range;
     const StageRange range{static_cast<uint32_t>(m_states.size()), static_cast<uint32_t>(drawn.stages.size())};
     for (const Stage& stage : drawn.stages) {
         StageState state = evaluateStage(drawn, stage, inputs, m_identityLight);
@@ -334,8 +335,8 @@ StageRange StageTable::evaluate(MaterialId material, const StageInputs& inputs) 
             unit.clamped = m_textures.get(unit.texture).flags.clamp ? 1 : 0;
         m_states.push_back(state);
     }
-    candidates.emplace_back(m_keys.size(), range);
-    m_keys.emplace_back(id, used);
+    m_keys.push_back({id, used, range, head});
+    head = static_cast<uint32_t>(m_keys.size() - 1);
     return range;
 }
 

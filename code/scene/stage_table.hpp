@@ -2,7 +2,6 @@
 // The one table of evaluated stages of a frame. A (material, shader time, entity colours) triple is evaluated once, in
 // double precision; both renderers read the result.
 
-#include <unordered_map>
 #include <vector>
 
 #include "scene/material.hpp"
@@ -40,8 +39,17 @@ class StageTable {
     const TextureLibrary& m_textures;
     float m_identityLight;
     std::vector<StageState> m_states;
-    std::unordered_map<uint64_t, std::vector<std::pair<size_t, StageRange>>> m_known; ///< by hash of the inputs
-    std::vector<std::pair<MaterialId, StageInputs>> m_keys;
+    /// What was evaluated this frame, in chains by hash: nothing is allocated once the frame's number has been reached.
+    struct Key {
+        MaterialId material;
+        StageInputs inputs;
+        StageRange range;
+        uint32_t next; ///< of the chain
+    };
+    static constexpr uint32_t kNoKey = ~0u;
+    static constexpr size_t kBuckets = 1024; ///< several times the evaluations of a usual frame
+    std::vector<Key> m_keys;
+    std::vector<uint32_t> m_heads; ///< by hash: newest key of the chain
 };
 
 /// One stage at one time; pure.
