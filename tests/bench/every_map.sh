@@ -29,6 +29,7 @@ eye_of() { # MAP
   delta) echo "552 392 1058 0 0" ;;
   hydronex2) echo "-192 -5056 -14 0 -90" ;;
   oa_bases3p3ta) echo "-496 -1728 -134 0 90" ;;
+  oa_bases3plus3) echo "-560 -1728 -134 0 90" ;;
   oa_bases5) echo "-672 -1440 -86 0 270" ;;
   oa_ctf4ish) echo "2068 -558 1571 0 180" ;;
   oa_reptctf11) echo "1104 -784 26 0 0" ;;
