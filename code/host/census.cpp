@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "host/still_scene.hpp"
+
 namespace q3rt {
 
 namespace {
@@ -118,10 +120,10 @@ MapCensus takeCensus(const World& world, const MaterialLibrary& materials) {
     census.lightmapPages = world.bsp.lightmapPageCount();
     census.fogVolumes = world.fogs.empty() ? 0 : world.fogs.size() - 1;
     census.entities = world.entities.size();
+    census.spawnPoints = findSpawnPoints(world.entities).size();
     census.lightGrid = !world.grid.empty();
     if (!world.bounds.empty()) census.sizeQu = world.bounds.maxs - world.bounds.mins;
     for (const MapEntity& entity : world.entities) {
-        census.spawnPoints += entity.className() == "info_player_deathmatch";
         if (entity.className() == "misc_portal_surface") ++census.requirements["portal entities"];
         if (entity.className().starts_with("func_") && entity.className() != "func_group")
             ++census.requirements["moving models"];

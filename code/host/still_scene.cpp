@@ -10,6 +10,9 @@ namespace q3rt {
 namespace {
 
 constexpr float kDegrees = std::numbers::pi_v<float> / 180.0f;
+/// Of maps that have no info_player_deathmatch.
+constexpr std::string_view kOtherStarts[] = {"info_player_start", "team_CTF_redspawn", "team_CTF_bluespawn",
+                                             "team_CTF_redplayer", "team_CTF_blueplayer"};
 /// Of a standing player above the spawn point, in qu.
 constexpr float kEyeHeight = 26.0f;
 /// Part of a door or platform that stays in view when it is open, in qu, where the map gives none.
@@ -134,10 +137,16 @@ std::vector<StillEntity> buildStillScene(const Bsp& bsp, const std::vector<MapEn
 
 std::vector<EyePoint> findSpawnPoints(const std::vector<MapEntity>& entities) {
     std::vector<EyePoint> points;
-    for (const MapEntity& entity : entities)
-        if (entity.className() == "info_player_deathmatch")
-            points.push_back(
-                {entity.vector("origin").value_or(vec3(0)) + vec3(0, 0, kEyeHeight), 0, entity.number("angle", 0)});
+    const auto addAll = [&](std::string_view className) {
+        for (const MapEntity& entity : entities)
+            if (entity.className() == className)
+                points.push_back(
+                    {entity.vector("origin").value_or(vec3(0)) + vec3(0, 0, kEyeHeight), 0, entity.number("angle", 0)});
+    };
+    addAll("info_player_deathmatch");
+    if (!points.empty()) return points;
+    for (const std::string_view className : kOtherStarts)
+        addAll(className);
     return points;
 }
 

@@ -24,7 +24,8 @@ struct EyePoint {
 };
 
 std::vector<StillEntity> buildStillScene(const Bsp& bsp, const std::vector<MapEntity>& entities);
-/// Player starts in the order of the entity lump, seen from a standing player's eyes.
+/// Player starts, seen from a standing player's eyes: info_player_deathmatch in the order of the entity lump; on maps
+/// that have none, their other starts and then those of teams.
 std::vector<EyePoint> findSpawnPoints(const std::vector<MapEntity>& entities);
 /// The scene's view from an eye, all areas visible.
 refdef_t makeView(const EyePoint& eye, float fovXDegrees, int width, int height, int timeMs);
