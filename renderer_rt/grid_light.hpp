@@ -23,6 +23,8 @@ std::vector<GridIrradiance> explainGrid(const World& world, const MaterialLibrar
 void limitGrid(std::vector<RtGridCell>& grid, const vec3& mean, const vec3& ambient);
 
 /// Adds to each cell what its directions lack of the least irradiance that the bake let a surface have, mean over them.
+/// `explained` is an estimate of a few rays and stands inside a maximum: its noise makes the result a little too
+/// bright.
 void raiseGrid(std::vector<RtGridCell>& grid, const std::vector<GridIrradiance>& explained, const vec3& floor);
 
 } // namespace q3rt

@@ -1,8 +1,7 @@
 #include "renderer_rt/traced_scene.hpp"
 
-#include <algorithm>
-
 #include "blue_noise.hpp"
+#include "scene/triangle_order.hpp"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/rt_noise.h"
 
@@ -133,14 +132,7 @@ std::vector<uint32_t> TracedScene::instanceOrder(const ViewGeometry& geometry) c
                 box.add(vec3(record.worldFromModel * vec4(vertex.position, 1.0f)));
         boxes.push_back(box.empty() ? m_world->bounds : box);
     }
-    std::vector<uint32_t> order = buildSah(boxes, {.maxLeafItems = 1}).order;
-    // What is too odd for a box comes last.
-    std::vector<bool> placed(boxes.size(), false);
-    for (const uint32_t i : order)
-        placed[i] = true;
-    for (uint32_t i = 0; i < boxes.size(); ++i)
-        if (!placed[i]) order.push_back(i);
-    return order;
+    return sahLeafOrder(boxes, 1);
 }
 
 void TracedScene::makeInstances(const ViewGeometry& geometry, TracedView& view) {

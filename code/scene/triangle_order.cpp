@@ -4,16 +4,19 @@
 
 namespace q3rt {
 
-std::vector<uint32_t> sahLeafOrder(std::span<const vec3> trianglePositions) {
-    const std::vector<Bounds> boxes = triangleBounds(trianglePositions);
-    std::vector<uint32_t> order = buildSah(boxes).order;
+std::vector<uint32_t> sahLeafOrder(std::span<const Bounds> boxes, uint32_t maxLeafItems) {
+    std::vector<uint32_t> order = buildSah(boxes, {.maxLeafItems = maxLeafItems}).order;
     if (order.size() == boxes.size()) return order;
     std::vector<bool> inTree(boxes.size(), false);
-    for (const uint32_t triangle : order)
-        inTree[triangle] = true;
-    for (uint32_t triangle = 0; triangle < boxes.size(); ++triangle)
-        if (!inTree[triangle]) order.push_back(triangle);
+    for (const uint32_t item : order)
+        inTree[item] = true;
+    for (uint32_t item = 0; item < boxes.size(); ++item)
+        if (!inTree[item]) order.push_back(item);
     return order;
+}
+
+std::vector<uint32_t> sahLeafOrder(std::span<const vec3> trianglePositions) {
+    return sahLeafOrder(triangleBounds(trianglePositions), BvhBuildSettings{}.maxLeafItems);
 }
 
 } // namespace q3rt
