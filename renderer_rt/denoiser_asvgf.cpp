@@ -10,8 +10,8 @@ Asvgf::Asvgf(Device& device, const DenoisePipelines& pipelines, VkExtent2D exten
     , m_previousPixels(makeViewBuffer(device, extent, sizeof(RtPixel), "previous pixels"))
     , m_previousIrradiance(makeViewBuffer(device, extent, sizeof(vec4), "previous irradiance"))
     , m_winners(makeViewBuffer(device, strataOf(extent), sizeof(uint32_t), "winners"))
-    , m_gradients{makeViewBuffer(device, strataOf(extent), sizeof(vec2), "gradients 0"),
-                  makeViewBuffer(device, strataOf(extent), sizeof(vec2), "gradients 1")} {}
+    , m_gradients{makeViewBuffer(device, strataOf(extent), sizeof(vec4), "gradients 0"),
+                  makeViewBuffer(device, strataOf(extent), sizeof(vec4), "gradients 1")} {}
 
 void Asvgf::turn(ViewBuffers& view) {
     Svgf::turn(view);

@@ -23,7 +23,7 @@ class Asvgf final : public Svgf {
     Buffer m_previousPixels;     ///< RtPixel[]
     Buffer m_previousIrradiance; ///< vec4[]
     Buffer m_winners;            ///< uint32_t[], a stratum
-    Buffer m_gradients[2];       ///< vec2[], a stratum
+    Buffer m_gradients[2];       ///< vec4[], a stratum
 };
 
 } // namespace q3rt

@@ -56,7 +56,8 @@ class GridExplainer {
                                     : m_tables.rows.outside();
         addRow(point, row, frame, random, explained);
         if (row.seesSky != 0) cell.sunSeen = addSuns(point, frame, explained);
-        takeAway(explained, cell);
+        takeAway(explained, cell.surfaces);
+        takeAway(explained, cell.models);
         return explained;
     }
 
@@ -129,14 +130,13 @@ class GridExplainer {
         return all > 0 ? arrived / all : 0;
     }
 
-    /// The cell says irradiance = ambient + directed x max(0, cosine with its direction). What is left of that, by
-    /// channel: along the direction what is not explained there, elsewhere no more than is not explained across and
-    /// behind. Never below 0.
-    static void takeAway(const GridIrradiance& explained, RtGridCell& cell) {
+    /// What is left, by channel: along the direction what is not explained there, elsewhere no more than is not
+    /// explained across and behind. Never below 0.
+    static void takeAway(const GridIrradiance& explained, RtGridLight& light) {
         const vec3 around = (explained[1] + explained[2] + explained[3] + explained[4] + explained[5]) / 5.0f;
-        const vec3 along = glm::max(cell.ambient + cell.directed - explained[0], vec3(0.0f));
-        cell.ambient = glm::min(glm::max(cell.ambient - around, vec3(0.0f)), along);
-        cell.directed = along - cell.ambient;
+        const vec3 along = glm::max(light.ambient + light.directed - explained[0], vec3(0.0f));
+        light.ambient = glm::min(glm::max(light.ambient - around, vec3(0.0f)), along);
+        light.directed = along - light.ambient;
     }
 
     const World& m_world;
@@ -173,8 +173,9 @@ void limitGrid(std::vector<RtGridCell>& grid, const vec3& mean, const vec3& ambi
     size_t count = 0;
     for (RtGridCell& cell : grid) {
         if (cell.valid == 0) continue;
-        cell.ambient = glm::max(cell.ambient - ambient, vec3(0.0f));
-        sum += dvec3(cell.ambient) + 0.25 * dvec3(cell.directed); // the mean of max(0, cosine) over all directions
+        cell.surfaces.ambient = glm::max(cell.surfaces.ambient - ambient, vec3(0.0f));
+        sum += dvec3(cell.surfaces.ambient) +
+               0.25 * dvec3(cell.surfaces.directed); // the mean of max(0, cosine) over all directions
         ++count;
     }
     const vec3 bounced = glm::max(mean - ambient, vec3(0.0f));
@@ -182,8 +183,8 @@ void limitGrid(std::vector<RtGridCell>& grid, const vec3& mean, const vec3& ambi
     for (int c = 0; c < 3; ++c)
         if (sum[c] > 0) scale[c] = std::min(1.0f, static_cast<float>(bounced[c] * static_cast<double>(count) / sum[c]));
     for (RtGridCell& cell : grid) {
-        cell.ambient = scale * cell.ambient + ambient;
-        cell.directed *= scale;
+        cell.surfaces.ambient = scale * cell.surfaces.ambient + ambient;
+        cell.surfaces.directed *= scale;
     }
 }
 
@@ -193,10 +194,10 @@ void raiseGrid(std::vector<RtGridCell>& grid, const std::vector<GridIrradiance>&
         if (cell.valid == 0) continue;
         vec3 lacking(0.0f);
         for (size_t k = 0; k < kGridWays; ++k) {
-            const vec3 given = explained[i][k] + cell.ambient + (k == 0 ? cell.directed : vec3(0.0f));
+            const vec3 given = explained[i][k] + cell.surfaces.ambient + (k == 0 ? cell.surfaces.directed : vec3(0.0f));
             lacking += glm::max(floor - given, vec3(0.0f));
         }
-        cell.ambient += lacking / static_cast<float>(kGridWays);
+        cell.surfaces.ambient += lacking / static_cast<float>(kGridWays);
     }
 }
 

@@ -45,19 +45,26 @@ void TraceRenderer::onReloadLights() {
     if (currentRenderer) currentRenderer->m_reloadLights = true;
 }
 
+ModelLightScale TraceRenderer::modelLightScale() const {
+    const ViewGeometrySettings scales = viewGeometrySettings();
+    return {scales.ambientScale, scales.directedScale};
+}
+
 void TraceRenderer::loadLights() {
     m_lights = extractLights(*world(), materials());
     m_lostLights = m_settings.rt_lostLights;
+    m_modelLightScale = modelLightScale();
     m_reloadLights = false;
     if (m_lostLights == 0) return;
     if (const auto lost = readLostLights(engine(), *world())) applyLostLights(*lost, *world(), materials(), m_lights);
 }
 
 void TraceRenderer::followLights() {
-    if (!m_scene->hasWorld() || (!m_reloadLights && m_lostLights == m_settings.rt_lostLights)) return;
+    const bool changed = m_lostLights != m_settings.rt_lostLights || m_modelLightScale != modelLightScale();
+    if (!m_scene->hasWorld() || (!m_reloadLights && !changed)) return;
     loadLights();
     context().device().waitIdle();
-    m_scene->loadLights(m_lights);
+    m_scene->loadLights(m_lights, m_modelLightScale);
     m_buffers.clear(); // what was seen in other light
     m_lastBuffers = nullptr;
 }

@@ -50,7 +50,7 @@ void TraceRenderer::useBackend(Backend backend) {
 
 void TraceRenderer::loadScene(TracedScene& scene) {
     scene.setContent(materials(), textures());
-    scene.loadWorld(*world(), m_lights);
+    scene.loadWorld(*world(), m_lights, m_modelLightScale);
 }
 
 void TraceRenderer::onGpuWorldLoaded() {

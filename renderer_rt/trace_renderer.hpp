@@ -81,7 +81,8 @@ class TraceRenderer final : public GpuRenderer {
     void removeCommands();
     /// The map's lights, with its file of lost ones if they are wanted.
     void loadLights();
-    /// rt_reloadLights and changes of rt_lostLights.
+    ModelLightScale modelLightScale() const;
+    /// rt_reloadLights, and changes of rt_lostLights and of the light grid's scales.
     void followLights();
     void warmPipelines() { runStill({8, 8}, true); }
     /// Draws a still of the map that nobody sees, with the filters or without; times from submission to the end.
@@ -108,6 +109,7 @@ class TraceRenderer final : public GpuRenderer {
     bool m_commandsAdded = false;
     LightSet m_lights;
     int m_lostLights = 0; ///< rt_lostLights of these
+    ModelLightScale m_modelLightScale;
     bool m_reloadLights = false;
     std::string m_calibrationKey; ///< not empty: the back end is to be measured when a map is there
     std::string m_backendReason;

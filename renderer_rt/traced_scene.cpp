@@ -40,17 +40,17 @@ void TracedScene::setContent(const MaterialLibrary& materials, const TextureLibr
     m_models = std::make_unique<ModelGeometry>(m_context.device(), m_backend);
 }
 
-void TracedScene::loadWorld(const World& world, const LightSet& lights) {
+void TracedScene::loadWorld(const World& world, const LightSet& lights, const ModelLightScale& scale) {
     m_world = &world;
     Device& device = m_context.device();
     m_statics =
         std::make_unique<StaticGeometry>(device, m_context.uploader(), world, m_builder->materials(), m_backend);
-    loadLights(lights);
+    loadLights(lights, scale);
 }
 
-void TracedScene::loadLights(const LightSet& lights) {
+void TracedScene::loadLights(const LightSet& lights, const ModelLightScale& scale) {
     m_lights = std::make_unique<WorldLights>(m_context.device(), m_context.uploader(), *m_world, m_builder->materials(),
-                                             lights, m_stages->textures());
+                                             lights, scale, m_stages->textures());
 }
 
 void TracedScene::dropContent() {

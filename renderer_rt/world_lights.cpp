@@ -62,7 +62,7 @@ std::vector<RtNode> makeNodes(const World& world) {
     return nodes;
 }
 
-std::vector<RtGridCell> makeGrid(const World& world) {
+std::vector<RtGridCell> makeGrid(const World& world, const ModelLightScale& scale) {
     std::vector<RtGridCell> cells;
     if (world.grid.empty()) return cells;
     // As it was baked: a brightened one has lost what did not fit its bytes.
@@ -73,8 +73,8 @@ std::vector<RtGridCell> makeGrid(const World& world) {
                 const vec3 point = grid.origin + grid.cellSize * vec3(x, y, z);
                 const GridLight light = grid.sample(point);
                 RtGridCell cell{};
-                cell.ambient = light.ambient;
-                cell.directed = light.directed;
+                cell.surfaces = {light.ambient, light.directed};
+                cell.models = {scale.ambient * light.ambient, scale.directed * light.directed};
                 cell.direction = light.direction;
                 cell.valid = light.ambient != vec3(0.0f) ? 1 : 0;
                 cells.push_back(cell);
@@ -135,7 +135,7 @@ std::vector<bool> findSkyClusters(const World& world, const MaterialLibrary& mat
 }
 
 LightTables buildLightTables(const World& world, const MaterialLibrary& materials, const LightSet& lights,
-                             LightAnimation& animation) {
+                             const ModelLightScale& scale, LightAnimation& animation) {
     LightTables tables;
     std::vector<TriangleLight> triangles = lights.triangles;
     const std::vector<TriangleLight> skies = skyTriangles(world, materials, lights);
@@ -155,7 +155,7 @@ LightTables buildLightTables(const World& world, const MaterialLibrary& material
         tables.rows.rows[r].seesSky = cluster >= seesSky.size() || seesSky[cluster] ? 1 : 0;
     }
     tables.nodes = makeNodes(world);
-    tables.grid = makeGrid(world);
+    tables.grid = makeGrid(world, scale);
     return tables;
 }
 
@@ -180,9 +180,9 @@ TriangleLight deformLight(const TriangleLight& light, const ViewGeometry& geomet
 }
 
 WorldLights::WorldLights(Device& device, Uploader& uploader, const World& world, const MaterialLibrary& materials,
-                         const LightSet& lights, const TextureLibrary& textures)
+                         const LightSet& lights, const ModelLightScale& scale, const TextureLibrary& textures)
     : m_animation(materials, textures) {
-    LightTables tables = buildLightTables(world, materials, lights, m_animation);
+    LightTables tables = buildLightTables(world, materials, lights, scale, m_animation);
     const std::vector<GridIrradiance> explained = explainGrid(world, materials, tables);
     if (lights.indirect) limitGrid(tables.grid, *lights.indirect, lights.ambient);
     raiseGrid(tables.grid, explained, lights.floor);

@@ -22,9 +22,15 @@ struct LightTables {
     std::vector<RtNode> nodes;
     std::vector<RtGridCell> grid;
 };
-/// Animated emitters are entered into `animation`.
+/// Of the light grid on models: r_ambientScale, r_directedScale.
+struct ModelLightScale {
+    float ambient = 0.6f, directed = 1;
+    bool operator==(const ModelLightScale&) const = default;
+};
+
+/// Animated emitters are entered into `animation`. The grid is as baked: explainGrid() comes next.
 LightTables buildLightTables(const World& world, const MaterialLibrary& materials, const LightSet& lights,
-                             LightAnimation& animation);
+                             const ModelLightScale& scale, LightAnimation& animation);
 
 /// Clusters from which any part of a sky surface may be seen; all of them if a sky surface is in no cluster.
 std::vector<bool> findSkyClusters(const World& world, const MaterialLibrary& materials);
@@ -41,7 +47,7 @@ TriangleLight deformLight(const TriangleLight& light, const ViewGeometry& geomet
 class WorldLights {
   public:
     WorldLights(Device& device, Uploader& uploader, const World& world, const MaterialLibrary& materials,
-                const LightSet& lights, const TextureLibrary& textures);
+                const LightSet& lights, const ModelLightScale& scale, const TextureLibrary& textures);
     /// Fills the frame's light addresses and counts, all but those of `lights` (see others()).
     void describe(RtFrame& frame) const;
     /// All triangle lights, those of movers and deformed surfaces where the view has them; empty if all are where

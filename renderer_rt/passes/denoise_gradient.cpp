@@ -18,7 +18,7 @@ void addDenoiseGradient(FrameGraph& graph, ViewResources& resources, DenoiseReso
             work.pipelines.dispatch(pass.commands(), DenoiseStage::Gradient, {.denoise = work.table},
                                     strataOf(work.extent));
         });
-    checkFinite(graph, resources, "denoise gradient", denoise.gradients[0], kPairItem, strataOf(work.extent));
+    checkFinite(graph, resources, "denoise gradient", denoise.gradients[0], kColorItem, strataOf(work.extent));
 }
 
 void addDenoiseGradientFilter(FrameGraph& graph, ViewResources& resources, DenoiseResources& denoise,
@@ -36,7 +36,7 @@ void addDenoiseGradientFilter(FrameGraph& graph, ViewResources& resources, Denoi
                 work.pipelines.dispatch(pass.commands(), DenoiseStage::GradientFilter,
                                         {.denoise = work.table, .level = level}, strataOf(work.extent));
             });
-        checkFinite(graph, resources, "denoise gradient filter", denoise.gradients[(level + 1) & 1], kPairItem,
+        checkFinite(graph, resources, "denoise gradient filter", denoise.gradients[(level + 1) & 1], kColorItem,
                     strataOf(work.extent));
     }
 }

@@ -27,7 +27,7 @@ struct ViewResources {
     BufferId irradiance;                ///< vec4[]: direct light
     BufferId ambient;                   ///< vec4[]
     BufferId lighting;                  ///< vec4[]: irradiance, or what the denoiser made of it
-    BufferId gradients;                 ///< vec2[], a stratum: change of light, if the denoiser knows it
+    BufferId gradients;                 ///< vec4[], a stratum: change of light, if the denoiser knows it
     BufferId radiance;                  ///< vec4[]
     BufferId picture;                   ///< vec4[]: exposed
     BufferId sums;                      ///< RtSums[], if plain samples are accumulated

@@ -86,14 +86,19 @@ float varianceOfMean(vec2 moments, float n) { return max(moments.y - moments.x *
 // Relative changes from this on say that nothing of the old light is left to use.
 const float kFullChange = 0.1f;
 
+// Chance is taken to make changes of so many standard deviations: what is above it has a cause.
+const float kChanceSigmas = 1.0f;
+
 // How much of the history is to be dropped: A-SVGF, equation 4, steeper. A mean that forgets a share a of itself in
 // each frame lags a light that changes by g a frame by g / a and keeps noise in proportion to a; the sum of both
 // squares is least where a^3 goes with g^2. The gradient of an unchanged point is exactly 0: no steady light loses any.
-float historyLoss(vec2 gradient)
+// `gradient`: change of luminance, what it is relative to, variance of the change by chance.
+float historyLoss(vec3 gradient)
 {
-    if (gradient.y <= 0.0f)
+    float change = abs(gradient.x) - kChanceSigmas * sqrt(gradient.z);
+    if (gradient.y <= 0.0f || change <= 0.0f)
         return 0.0f;
-    return min(pow(abs(gradient.x) / (kFullChange * gradient.y), 2.0f / 3.0f), 1.0f);
+    return min(pow(change / (kFullChange * gradient.y), 2.0f / 3.0f), 1.0f);
 }
 
 // Share of the new sample in the mean: 1/n while nothing changes, more where the history is wrong.

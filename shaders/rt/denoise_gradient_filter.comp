@@ -1,5 +1,6 @@
 // One level of the gradient's a-trous filter, at the strata's resolution (A-SVGF, section 4.3). Change and reference
-// are filtered alike and divided afterwards, so that strata without a sample are filled by their neighbours.
+// are filtered alike and divided afterwards, so that strata without a sample are filled by their neighbours;
+// variances take the weights' squares.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "rt/extensions.glsl"
@@ -23,7 +24,7 @@ void main()
     vec3 normal = unpackNormal(center.normal);
     float footprint = denoise.pixelTangent * float(kStratumPixels) * length(center.position - denoise.camera.eye);
     int step = 1 << push.level;
-    vec2 sum = vec2(0.0);
+    vec3 sum = vec3(0.0);
     for (int y = -1; y <= 1; ++y)
         for (int x = -1; x <= 1; ++x) {
             ivec2 tap = ivec2(stratum) + ivec2(x, y) * step;
@@ -34,7 +35,8 @@ void main()
             if (guided && guide.normal != kNoNormal)
                 weight *= normalWeight(dot(normal, unpackNormal(guide.normal))) *
                           planeWeight(dot(normal, guide.position - center.position), footprint);
-            sum += weight * PairTable(denoise.gradients[push.level & 1u]).at[stratumIndex(uvec2(tap))];
+            sum += vec3(weight, weight, weight * weight) *
+                   ColorTable(denoise.gradients[push.level & 1u]).at[stratumIndex(uvec2(tap))].xyz;
         }
-    PairTable(denoise.gradients[push.level + 1u & 1u]).at[stratumIndex(stratum)] = sum;
+    ColorTable(denoise.gradients[push.level + 1u & 1u]).at[stratumIndex(stratum)] = vec4(sum, 0.0);
 }

@@ -98,7 +98,7 @@ void main()
         float loss = kFixedShare;
         if ((denoise.flags & kDenoiseGradient) != 0u)
             loss = historyLoss(
-                PairTable(denoise.gradients[kGradientLevels & 1u]).at[stratumIndex(pixel / kStratumPixels)]);
+                ColorTable(denoise.gradients[kGradientLevels & 1u]).at[stratumIndex(pixel / kStratumPixels)].xyz);
         share = blendFactor(min(history.light.w, kHistoryLimit - 1.0), loss);
     }
     ColorTable(denoise.light).at[index] = vec4(mix(history.light.rgb, light, share), 1.0 / share);

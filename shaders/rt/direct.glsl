@@ -89,7 +89,7 @@ void directPixel(uvec2 pixelPosition)
     if (pixel.lit != 0u && (rtFrame.flags & kFrameIllumination) != 0u) {
         bool thin = (pixel.lit & kLitThin) != 0u;
         vec3 irradiance = vec3(0.0);
-        GridSample grid = sampleGrid(sideOf(pixel, false).origin, pixel.normal, thin);
+        GridSample grid = sampleGrid(sideOf(pixel, false).origin, pixel.normal, pixel.lit);
         for (uint side = 0u; side < (thin ? 2u : 1u); ++side)
             irradiance += sampleLights(sideOf(pixel, side > 0u), grid.sunSeen, ownRandomKey(pixel));
         light = irradiance / kWhiteIrradiance;

@@ -10,9 +10,9 @@ struct GridSample {
     float sunSeen;   // [0, 1]
 };
 
-// Trilinear over the cells that are not inside walls; no light, and all of the sky, where there are none. `thin`: light
-// along the normal counts whichever way it goes.
-GridSample sampleGrid(vec3 point, vec3 normal, bool thin)
+// Trilinear over the cells that are not inside walls; no light, and all of the sky, where there are none. `lit`: kLit*;
+// on what is thin light along the normal counts whichever way it goes.
+GridSample sampleGrid(vec3 point, vec3 normal, uint lit)
 {
     GridSample result = GridSample(vec3(0.0), 1.0);
     if ((rtFrame.flags & kFrameGrid) == 0u)
@@ -32,8 +32,9 @@ GridSample sampleGrid(vec3 point, vec3 normal, bool thin)
         int cellIndex = at.x + rtFrame.gridCounts.x * (at.y + rtFrame.gridCounts.y * at.z);
         RtGridCell sampled = GridTable(rtFrame.grid).at[cellIndex];
         float weight = axisWeights.x * axisWeights.y * axisWeights.z * float(sampled.valid);
-        ambient += sampled.ambient * weight;
-        directed += sampled.directed * weight;
+        bool model = (lit & kLitModel) != 0u;
+        ambient += (model ? sampled.models.ambient : sampled.surfaces.ambient) * weight;
+        directed += (model ? sampled.models.directed : sampled.surfaces.directed) * weight;
         direction += sampled.direction * weight;
         sunSeen += sampled.sunSeen * weight;
         total += weight;
@@ -42,7 +43,7 @@ GridSample sampleGrid(vec3 point, vec3 normal, bool thin)
         return result;
     float size2 = dot(direction, direction);
     float facing = size2 > 0.0 ? dot(normal, direction) * inversesqrt(size2) : 0.0;
-    result.irradiance = (ambient + directed * (thin ? abs(facing) : max(0.0, facing))) / total;
+    result.irradiance = (ambient + directed * ((lit & kLitThin) != 0u ? abs(facing) : max(0.0, facing))) / total;
     result.sunSeen = sunSeen / total;
     return result;
 }

@@ -17,7 +17,6 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer TaaTable { RtTaa value; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer ColorTable { vec4 at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer PairTable { vec2 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureTable { RtExposure value; };
 layout(push_constant, scalar) uniform Push { RtTaaPush push; };
 
@@ -135,7 +134,7 @@ float lightLoss(uvec2 pixel)
     if (taa.gradients == uvec2(0u))
         return 0.0;
     uvec2 stratum = pixel / kStratumPixels;
-    return historyLoss(PairTable(taa.gradients).at[stratum.y * taa.strata.x + stratum.x]);
+    return historyLoss(ColorTable(taa.gradients).at[stratum.y * taa.strata.x + stratum.x].xyz);
 }
 
 // By how much the exposure has changed since the previous picture.

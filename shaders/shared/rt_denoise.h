@@ -37,7 +37,7 @@ struct RtDenoise {
     SHARED_ADDRESS moments; // vec2[]: means of luminance and its square
     SHARED_ADDRESS previousMoments;
     SHARED_ADDRESS winners;      // uint[], a stratum: packWinner() of the sample carried into it, or kNoWinner
-    SHARED_ADDRESS gradients[2]; // vec2[], a stratum: change of luminance, and what it is relative to
+    SHARED_ADDRESS gradients[2]; // vec4[], a stratum: see historyLoss(); w: unused
     SHARED_ADDRESS filtered[2];  // vec4[]: L; w: variance of its luminance
     SHARED_ADDRESS motionToCurrent; // RtMotion[], by instance of the previous frame
     RtCamera camera;

@@ -85,11 +85,18 @@ struct RtNode {
     int back;
 };
 
-struct RtGridCell {
-    vec3 ambient; // luxel units
-    uint valid;   // 0: inside a wall
+// Irradiance = ambient + directed x max(0, cosine of normal and direction), luxel units.
+struct RtGridLight {
+    vec3 ambient;
     vec3 directed;
+};
+
+// What the traced lights leave of a point of the map's light grid.
+struct RtGridCell {
+    RtGridLight surfaces; // of what has a lightmap, or baked colours
+    RtGridLight models;   // of what the engine lights by the grid
     vec3 direction; // toward the light, as stored: not unit after interpolation
+    uint valid;     // 0: inside a wall
     float sunSeen; // share of the suns that shine here, [0, 1]: a guide for choosing lights
 };
 

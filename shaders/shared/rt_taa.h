@@ -19,7 +19,7 @@ struct RtTaa {
     SHARED_ADDRESS picture; // vec4[]: this frame's, exposed
     SHARED_ADDRESS history; // vec4[], outputSize: the result; w: samples in it
     SHARED_ADDRESS previousHistory;
-    SHARED_ADDRESS gradients;    // vec2[], a stratum: the denoiser's filtered change of light; 0: there is none
+    SHARED_ADDRESS gradients;    // vec4[], a stratum: the denoiser's filtered change of light; 0: there is none
     SHARED_ADDRESS autoExposure; // RtExposure; 0: there is none
     RtCamera camera;
     RtCamera previousCamera;

@@ -109,11 +109,13 @@ TEST(Blend, IsAMeanUntilSomethingChanges) {
     for (int n = 0; n < 64; ++n)
         EXPECT_FLOAT_EQ(shader::blendFactor(static_cast<float>(n), 0), 1.0f / static_cast<float>(n + 1));
     EXPECT_EQ(shader::blendFactor(40, 1), 1);
-    EXPECT_EQ(shader::historyLoss({0, 3}), 0);
-    EXPECT_EQ(shader::historyLoss({0, 0}), 0) << "no sample says nothing";
-    EXPECT_EQ(shader::historyLoss({-1, 1}), 1) << "a light that went out";
-    EXPECT_EQ(shader::historyLoss({1, 10}), 1);
-    EXPECT_NEAR(shader::historyLoss({0.1f, 10}), std::pow(0.1, 2.0 / 3.0), 1e-6);
+    EXPECT_EQ(shader::historyLoss({0, 3, 0}), 0);
+    EXPECT_EQ(shader::historyLoss({0, 0, 0}), 0) << "no sample says nothing";
+    EXPECT_EQ(shader::historyLoss({-1, 1, 0}), 1) << "a light that went out";
+    EXPECT_EQ(shader::historyLoss({1, 10, 0}), 1);
+    EXPECT_NEAR(shader::historyLoss({0.1f, 10, 0}), std::pow(0.1, 2.0 / 3.0), 1e-6);
+    EXPECT_EQ(shader::historyLoss({1, 1, 1}), 0) << "one sample that has moved proves nothing";
+    EXPECT_NEAR(shader::historyLoss({0.2f, 10, 0.01f}), std::pow(0.1, 2.0 / 3.0), 1e-6);
     EXPECT_EQ(shader::varianceOfMean({0.5f, 0.25f}, 8), 0);
     EXPECT_FLOAT_EQ(shader::varianceOfMean({0.5f, 0.5f}, 5), 0.0625f);
 }

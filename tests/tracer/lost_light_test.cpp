@@ -129,49 +129,79 @@ TEST(LimitGrid, OnlyDarkensDownToTheMean) {
     std::vector<RtGridCell> grid(3);
     for (size_t i = 0; i < 2; ++i) {
         grid[i].valid = 1;
-        grid[i].ambient = vec3(10, 2, 0) * static_cast<float>(i + 1);
-        grid[i].directed = vec3(20, 4, 0);
+        grid[i].surfaces.ambient = vec3(10, 2, 0) * static_cast<float>(i + 1);
+        grid[i].surfaces.directed = vec3(20, 4, 0);
     }
-    grid[2].ambient = vec3(1000); // in a wall
+    grid[2].surfaces.ambient = vec3(1000); // in a wall
     std::vector<RtGridCell> limited = grid;
     limitGrid(limited, vec3(5, 100, 1), vec3(0)); // the mean is (10 + 20) / 2 + 20 / 4 in red, a fifth of that in green
-    EXPECT_NEAR(limited[0].ambient.x, 10 * 5.0 / 20.0, 1e-5);
-    EXPECT_NEAR(limited[1].ambient.x, 20 * 5.0 / 20.0, 1e-5);
-    EXPECT_NEAR(limited[1].directed.x, 20 * 5.0 / 20.0, 1e-5);
-    EXPECT_EQ(limited[1].ambient.y, grid[1].ambient.y);
-    EXPECT_EQ(limited[0].directed.y, grid[0].directed.y);
-    EXPECT_EQ(limited[0].ambient.z, 0);
+    EXPECT_NEAR(limited[0].surfaces.ambient.x, 10 * 5.0 / 20.0, 1e-5);
+    EXPECT_NEAR(limited[1].surfaces.ambient.x, 20 * 5.0 / 20.0, 1e-5);
+    EXPECT_NEAR(limited[1].surfaces.directed.x, 20 * 5.0 / 20.0, 1e-5);
+    EXPECT_EQ(limited[1].surfaces.ambient.y, grid[1].surfaces.ambient.y);
+    EXPECT_EQ(limited[0].surfaces.directed.y, grid[0].surfaces.directed.y);
+    EXPECT_EQ(limited[0].surfaces.ambient.z, 0);
 }
 
 TEST(LimitGrid, LightThatIsEverywhereCountsOnce) {
     std::vector<RtGridCell> grid(2);
     grid[0].valid = grid[1].valid = 1;
-    grid[0].ambient = vec3(30, 4, 0); // the third channel's grid has nothing of it
-    grid[1].ambient = vec3(10, 4, 0);
+    grid[0].surfaces.ambient = vec3(30, 4, 0); // the third channel's grid has nothing of it
+    grid[1].surfaces.ambient = vec3(10, 4, 0);
     limitGrid(grid, vec3(15, 15, 15), vec3(10, 10, 15));
-    EXPECT_NEAR(grid[0].ambient.x, 10 + 20 * 5.0 / 10.0, 1e-5); // bounces: 20 and 0, of which the mean may be 5
-    EXPECT_NEAR(grid[1].ambient.x, 10, 1e-5);
+    EXPECT_NEAR(grid[0].surfaces.ambient.x, 10 + 20 * 5.0 / 10.0,
+                1e-5); // bounces: 20 and 0, of which the mean may be 5
+    EXPECT_NEAR(grid[1].surfaces.ambient.x, 10, 1e-5);
     for (const RtGridCell& cell : grid) {
-        EXPECT_NEAR(cell.ambient.y, 10, 1e-5);
-        EXPECT_NEAR(cell.ambient.z, 15, 1e-5);
+        EXPECT_NEAR(cell.surfaces.ambient.y, 10, 1e-5);
+        EXPECT_NEAR(cell.surfaces.ambient.z, 15, 1e-5);
+    }
+}
+
+TEST(ModelLight, IsTheGridLessWhatTheLightsGive) {
+    TestGame game;
+    TextureLibrary textures(game, {});
+    MaterialLibrary materials(game, textures, {});
+    const auto world = loadWorld(game, kMap, materials, {});
+    LightAnimation animation(materials, textures);
+    const ModelLightScale scale{.ambient = 0.6f, .directed = 1};
+    for (const LightSet& lights : {LightSet{}, extractLights(*world, materials)}) {
+        LightTables tables = buildLightTables(*world, materials, lights, scale, animation);
+        const std::vector<RtGridCell> baked = tables.grid;
+        const std::vector<GridIrradiance> given = explainGrid(*world, materials, tables);
+        limitGrid(tables.grid, vec3(0), vec3(0)); // the lightmap lacks nothing
+        int lit = 0;
+        for (size_t i = 0; i < baked.size(); ++i) {
+            if (baked[i].valid == 0) continue;
+            const RtGridLight& left = tables.grid[i].models;
+            const vec3 along = baked[i].models.ambient + baked[i].models.directed;
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(left.ambient[c] + left.directed[c], std::max(0.0f, along[c] - given[i][0][c]), 1e-3f);
+            if (lights.triangles.empty()) {
+                EXPECT_EQ(left.ambient, scale.ambient * baked[i].surfaces.ambient);
+            }
+            EXPECT_EQ(tables.grid[i].surfaces.ambient, vec3(0));
+            lit += along != vec3(0);
+        }
+        EXPECT_GT(lit, 10);
     }
 }
 
 TEST(RaiseGrid, GivesWhatLacks) {
     std::vector<RtGridCell> grid(3);
     grid[0].valid = grid[1].valid = 1;
-    grid[0].ambient = vec3(4);
-    grid[0].directed = vec3(6);
-    grid[1].ambient = vec3(25);
+    grid[0].surfaces.ambient = vec3(4);
+    grid[0].surfaces.directed = vec3(6);
+    grid[1].surfaces.ambient = vec3(25);
     const GridIrradiance half = {vec3(1), vec3(0), vec3(2), vec3(30), vec3(0), vec3(0)};
     std::vector<RtGridCell> raised = grid;
     raiseGrid(raised, {half, half, half}, vec3(20, 0, 20));
     // Given: 11, 4, 6, 34, 4, 4.
-    EXPECT_NEAR(raised[0].ambient.x, 4 + (9 + 16 + 14 + 0 + 16 + 16) / 6.0, 1e-5);
-    EXPECT_EQ(raised[0].ambient.y, 4);
-    EXPECT_EQ(raised[0].directed, grid[0].directed);
-    EXPECT_EQ(raised[1].ambient, grid[1].ambient) << "light enough";
-    EXPECT_EQ(raised[2].ambient, vec3(0)) << "in a wall";
+    EXPECT_NEAR(raised[0].surfaces.ambient.x, 4 + (9 + 16 + 14 + 0 + 16 + 16) / 6.0, 1e-5);
+    EXPECT_EQ(raised[0].surfaces.ambient.y, 4);
+    EXPECT_EQ(raised[0].surfaces.directed, grid[0].surfaces.directed);
+    EXPECT_EQ(raised[1].surfaces.ambient, grid[1].surfaces.ambient) << "light enough";
+    EXPECT_EQ(raised[2].surfaces.ambient, vec3(0)) << "in a wall";
 }
 
 } // namespace

@@ -23,7 +23,7 @@ MapLights::MapLights(FileSource& files, const std::string& map)
     , m_world(q3rt::loadWorld(files, "maps/" + map + ".bsp", m_materials, {})) {
     const LightSet lights = extractLights(*m_world, m_materials);
     LightAnimation animation(m_materials, m_textures);
-    m_tables = buildLightTables(*m_world, m_materials, lights, animation);
+    m_tables = buildLightTables(*m_world, m_materials, lights, {}, animation);
     m_colors = animation.evaluate(0);
     const BspModel& model = m_world->bsp.models[0];
     std::vector<vec3> positions;

@@ -216,7 +216,9 @@ dvec3 PointMethods::runKept(size_t kept) {
 
 dvec3 PointMethods::enumerateChoices(uint cullLights, uint candidates, float sunSeen) {
     prepare(cullLights, 1);
-    const RtGridCell cell{vec3(0.0f), 1, vec3(0.0f), vec3(0.0f), sunSeen};
+    RtGridCell cell{};
+    cell.valid = 1;
+    cell.sunSeen = sunSeen;
     m_inputs.frame.candidatesPerChoice = candidates;
     m_inputs.frame.flags |= kFrameGrid;
     m_inputs.frame.grid = reinterpret_cast<uint64_t>(&cell);
