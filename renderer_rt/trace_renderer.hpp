@@ -31,6 +31,7 @@ class TraceRenderer final : public GpuRenderer {
     void drawWorldView(FrameGraph& graph, FrameTargets& targets, const FrameCommands& frame,
                        const SceneView& scene) override;
     const char* backendName() const override;
+    bool isRasterizer() const override { return false; } // light is measured with white as 1
     const char* rendererName() const override { return "q3rt renderer_rt"; }
     void onDeviceCreated() override;
     void onGpuWorldLoaded() override;

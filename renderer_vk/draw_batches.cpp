@@ -24,13 +24,13 @@ bool coversWhatIsBehind(const Material& material) {
            first.alphaTest == AlphaTest::None;
 }
 
-StageState pictureStage(TextureId texture) {
+StageState pictureStage(TextureId texture, float brightness) {
     StageState state{};
     for (TextureUnitState& unit : state.unit)
         unit.texture = texture;
     state.unit[0].coord = kCoordTexture;
     state.unit[0].clamped = 1;
-    state.color = vec4(1.0f);
+    state.color = vec4(vec3(brightness), 1.0f);
     state.rgbGen = kColorConstant;
     state.alphaGen = kAlphaConstant;
     return state;
@@ -44,7 +44,10 @@ uint32_t DrawListBuilder::entityIndex(ViewWork& work, uint32_t entity) {
     index = static_cast<int>(work.out.entities.size());
     const EntityRecord& record = work.geometry.entities[entity];
     RasterEntity target{};
-    target.clipFromModel = mat4(glm::dmat4(work.view.clipFromWorld) * glm::dmat4(record.worldFromModel));
+    constexpr uint32_t kHeld = entityFlag::kDepthHack | entityFlag::kCrosshair;
+    const bool weapon = (record.flags & kHeld) == entityFlag::kDepthHack;
+    const mat4& clip = weapon ? work.view.clipFromWorldNear : work.view.clipFromWorld;
+    target.clipFromModel = mat4(glm::dmat4(clip) * glm::dmat4(record.worldFromModel));
     const mat4 rows = glm::transpose(record.worldFromModel);
     target.worldRow0 = rows[0];
     target.worldRow1 = rows[1];
@@ -165,6 +168,8 @@ void DrawListBuilder::makeBatches(ViewWork& work) {
     if (!volumesDrawn) appendShadowVolumes(work);
     if (work.settings.raster.r_drawSun != 0 && work.skyDrawn) appendSun(work);
     if (volumes) appendShadowShade(work);
+    appendFlares(work, draw);
+    if (work.settings.raster.r_speeds != 0) countView(work);
     draw.batchCount = static_cast<uint32_t>(work.out.batches.size()) - draw.firstBatch;
     work.out.views.push_back(draw);
 }
@@ -196,6 +201,7 @@ void DrawListBuilder::appendBatch(ViewWork& work, size_t firstItem, size_t lastI
     constexpr uint32_t kUnlit = surfaceParm::kNoDlight | surfaceParm::kSky;
     if (material.sort <= 3 && (material.surfaceFlags & kUnlit) == 0) appendLights(work, batch, firstItem, lastItem);
     work.out.batches.push_back(batch);
+    if (work.settings.raster.r_shownormals != 0) appendNormals(work, batch);
 }
 
 void DrawListBuilder::appendSky(ViewWork& work, const Material& material, MaterialId id, size_t firstItem,
@@ -228,7 +234,8 @@ void DrawListBuilder::appendSky(ViewWork& work, const Material& material, Materi
             // Images are in the order rt lf bk ft up dn, as the faces are.
             batch.own = OwnDraw::SkyBox;
             batch.stages = {kOwnStageBit | static_cast<uint32_t>(work.out.ownStages.size()), 1};
-            work.out.ownStages.push_back(pictureStage(material.sky.box[static_cast<size_t>(face)]));
+            work.out.ownStages.push_back(
+                pictureStage(material.sky.box[static_cast<size_t>(face)], m_stages.identityLight()));
             batch.firstIndex = range.firstIndex;
             batch.indexCount = range.indexCount;
             work.out.batches.push_back(batch);

@@ -19,6 +19,7 @@ void FrameDrawData::clear() {
     ownStages.clear();
     batches.clear();
     views.clear();
+    flareTests.clear();
 }
 
 } // namespace q3rt

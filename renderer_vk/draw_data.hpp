@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "renderer_vk/flares.hpp"
 #include "scene/material.hpp"
 #include "scene/stage_table.hpp"
 #include "shaders/shared/raster.h"
@@ -27,7 +28,9 @@ enum class OwnDraw : uint8_t {
     SkyBox,       ///< opaque, no depth write
     Overlay,      ///< alpha blend, no depth
     ShadowVolume, ///< counts in the stencil: sides toward the eye up, then the others down
-    ShadowShade   ///< darkens where the count is not 0
+    ShadowShade,  ///< darkens where the count is not 0
+    Flares,       ///< a material's stages without depth
+    Normals       ///< lines, over everything
 };
 
 /// Triangles of one material, entity and fog, drawn stage by stage.
@@ -52,10 +55,27 @@ struct ViewDraw {
     bool clearColor = false;
     float clearGrey = 0; ///< [0, 1]
     uint32_t firstBatch = 0, batchCount = 0;
+    uint32_t firstFlareTest = 0, flareTestCount = 0; ///< in FrameDrawData::flareTests
+    uint32_t flareEntity = 0;                        ///< of their pixels
+};
+
+/// A pixel that is drawn to nothing: does it lie before what is drawn?
+struct FlareTest {
+    FlareKey key;
+    uint32_t firstIndex = 0; ///< of six
 };
 
 /// A stage of one colour and the white picture.
 StageState colorStage(const vec4& color);
+
+/// Of a frame's views together, for r_speeds.
+struct ViewCounts {
+    size_t leafs = 0, surfaces = 0, vertices = 0, litSurfaces = 0;
+    size_t modelsIn = 0, modelsAcross = 0, modelsOut = 0;
+    size_t flares = 0, flaresFading = 0;
+    int cluster = -1; ///< of the last
+    float farQu = 0;
+};
 
 struct FrameDrawData {
     std::vector<Vertex> vertices; ///< VertexSource::Dynamic
@@ -67,6 +87,7 @@ struct FrameDrawData {
     std::vector<StageState> ownStages;
     std::vector<DrawBatch> batches;
     std::vector<ViewDraw> views;
+    std::vector<FlareTest> flareTests;
     void clear();
 };
 

@@ -34,8 +34,6 @@ DrawListBuilder::DrawListBuilder(const MaterialLibrary& materials, const ModelLi
     , m_models(models)
     , m_stages(stages)
     , m_world(world) {
-    for (auto& memory : m_memory)
-        memory = std::make_unique<ViewMemory>();
     if (!world) return;
     m_visibility = std::make_unique<WorldVisibility>(*world);
     m_lights = std::make_unique<SurfaceLights>(world->surfaces.size());
@@ -44,6 +42,19 @@ DrawListBuilder::DrawListBuilder(const MaterialLibrary& materials, const ModelLi
 
 DrawListBuilder::~DrawListBuilder() = default;
 
+void DrawListBuilder::beginFrame(uint64_t frame) {
+    m_sceneNumber = 0;
+    m_counts = {};
+    m_fades.beginFrame(frame);
+}
+
+DrawListBuilder::ViewMemory& DrawListBuilder::memoryOf(int portalDepth) {
+    const auto index = static_cast<size_t>(portalDepth);
+    while (m_memory.size() <= index)
+        m_memory.push_back(std::make_unique<ViewMemory>());
+    return *m_memory[index];
+}
+
 MaterialId DrawListBuilder::drawnId(MaterialId id) const {
     const MaterialId other = m_materials.get(id).remappedTo;
     return other ? other : id;
@@ -51,8 +62,10 @@ MaterialId DrawListBuilder::drawnId(MaterialId id) const {
 
 void DrawListBuilder::addScene(const FrameCommands& frame, const SceneView& scene, const DrawListSettings& settings,
                                FrameDrawData& out) {
-    m_surfaceCount = 0;
-    ViewWork work(frame, settings, makeMainView(scene, settings.raster.r_znear), *m_memory[0], out);
+    ++m_sceneNumber;
+    RasterView view = makeMainView(scene, settings.raster.r_znear);
+    separateEye(view, settings.raster.r_zproj, settings.raster.r_stereoSeparation);
+    ViewWork work(frame, settings, view, memoryOf(0), out);
     buildView(work);
 }
 
@@ -84,10 +97,9 @@ void DrawListBuilder::buildView(ViewWork& work) {
     if (world && work.settings.drawWorld) addWorld(work);
     addEntities(work);
     std::ranges::sort(work.items, {}, [](const Item& item) { return std::pair(item.key, item.order); });
-    m_surfaceCount += work.items.size();
 
-    const bool portalShown = !work.view.portal && addPortalView(work);
-    if (portalShown && work.settings.raster.r_portalOnly != 0) return;
+    const bool portalShown = work.view.portalDepth < work.settings.raster.r_portalDepth && addPortalView(work);
+    if (portalShown && !work.view.portal && work.settings.raster.r_portalOnly != 0) return;
     makeBatches(work);
 }
 
@@ -244,7 +256,7 @@ bool DrawListBuilder::addPortalView(ViewWork& work) {
         const float range = m_materials.get(drawnId(item.material)).portalRange;
         if (!mirror || !portalVisible(work.view, {positions, normals, indices, plane}, range, *mirror)) continue;
         const auto view = makePortalView(work.view, plane, match, work.entities());
-        ViewWork portal(work.frame, work.settings, *view, *m_memory[1], work.out);
+        ViewWork portal(work.frame, work.settings, *view, memoryOf(view->portalDepth), work.out);
         buildView(portal);
         return true;
     }

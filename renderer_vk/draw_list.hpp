@@ -2,8 +2,8 @@
 // From a scene to batches in the original's order: visible world surfaces, polys and entities, sorted by shader rank,
 // entity, fog and light (spec of world section 3), portals first. Pure CPU.
 
-#include <array>
 #include <memory>
+#include <string>
 
 #include "renderer_vk/draw_data.hpp"
 #include "renderer_vk/portal.hpp"
@@ -20,7 +20,7 @@ namespace q3rt {
 struct DrawListSettings {
     RasterSettings raster;
     ViewGeometrySettings geometry;
-    MaterialId sun = 0;
+    MaterialId sun = 0, flare = 0;
     bool fastSky = false, drawWorld = true;
     bool dynamicLights = true;
 };
@@ -33,11 +33,14 @@ class DrawListBuilder {
     DrawListBuilder(const MaterialLibrary& materials, const ModelLibrary& models, StageTable& stages,
                     const World* world);
     ~DrawListBuilder();
+    void beginFrame(uint64_t frame);
+    /// What an earlier frame found out of its flares.
+    FlareFades& fades() { return m_fades; }
     /// Appends the views of one RenderScene: the portal's first, then its own.
     void addScene(const FrameCommands& frame, const SceneView& scene, const DrawListSettings& settings,
                   FrameDrawData& out);
-    /// Surfaces that the last scene drew, for tests and r_speeds.
-    size_t surfaceCount() const { return m_surfaceCount; }
+    /// A line for people of what the frame's views hold: r_speeds. They count only if it is set.
+    std::string describeCounts(int kind, const FrameDrawData& data) const;
 
   private:
     struct Item {
@@ -49,6 +52,13 @@ class DrawListBuilder {
         bool fromWorld; ///< world vertices
         bool lit;
         uint32_t order; ///< of submission: it decides between equal keys
+    };
+    /// A flare on the screen.
+    struct ViewFlare {
+        FlareKey key;
+        FlarePlace place;
+        vec3 color{0};
+        float fogKeep = 1;
     };
     struct ViewWork; // of one view, in view_work.hpp
     struct ViewMemory;
@@ -64,12 +74,19 @@ class DrawListBuilder {
     bool surfaceCulled(const ViewWork& work, const WorldSurface& surface, const EntityRecord& entity,
                        bool isWorld) const;
     bool addPortalView(ViewWork& work);
+    ViewMemory& memoryOf(int portalDepth);
     void makeBatches(ViewWork& work);
     void appendBatch(ViewWork& work, size_t firstItem, size_t lastItem);
     void appendSky(ViewWork& work, const Material& material, MaterialId id, size_t firstItem, size_t lastItem);
     void appendShadowVolumes(ViewWork& work);
     void appendShadowShade(ViewWork& work);
     void appendSun(ViewWork& work);
+    void appendNormals(ViewWork& work, const DrawBatch& of);
+    void countView(const ViewWork& work);
+    void findFlares(ViewWork& work);
+    void appendFlares(ViewWork& work, ViewDraw& draw);
+    uint32_t screenEntity(ViewWork& work);
+    void appendScreenSquare(ViewWork& work, const vec2& from, const vec2& to, float depth, uint32_t color);
     void appendItemIndices(ViewWork& work, const Item& item);
     uint32_t entityIndex(ViewWork& work, uint32_t entity);
     int fogIndex(ViewWork& work, int fog);
@@ -84,11 +101,13 @@ class DrawListBuilder {
     std::unique_ptr<WorldVisibility> m_visibility;
     std::unique_ptr<SurfaceLights> m_lights;
     ShadowVolumeBuilder m_shadowVolumes;
-    std::array<std::unique_ptr<ViewMemory>, 2> m_memory; ///< of the view, of a portal's in it
-    std::vector<uint32_t> m_batchLights;                 ///< of the batch at hand
-    std::vector<uint32_t> m_handled;                     ///< stamp by world surface: once a view, also by brush models
+    std::vector<std::unique_ptr<ViewMemory>> m_memory; ///< of the view, of the portal's in it, and so on
+    std::vector<uint32_t> m_batchLights;               ///< of the batch at hand
+    std::vector<uint32_t> m_handled;                   ///< stamp by world surface: once a view, also by brush models
     uint32_t m_stamp = 0;
-    size_t m_surfaceCount = 0;
+    FlareFades m_fades;
+    uint32_t m_sceneNumber = 0; ///< in its frame
+    ViewCounts m_counts;
 };
 
 } // namespace q3rt

@@ -2,7 +2,28 @@
 
 #include "renderer_vk/gpu_renderer.hpp"
 
+#include <optional>
+
+#include "renderer_vk/anaglyph.hpp"
+
 namespace q3rt {
+
+namespace {
+
+bool startsPass(const FrameCommand& command) {
+    return std::holds_alternative<SceneView>(command) || std::holds_alternative<Eye>(command);
+}
+
+} // namespace
+
+/// The eyes' pictures share one depth, which goes from the one to the other.
+void GpuRenderer::changeEye(FrameGraph& graph, Eye next, FrameTargets& targets, std::optional<FrameTargets>& leftEye) {
+    if (!m_anaglyph->enabled()) return;
+    if (next == Eye::Left && !leftEye) leftEye = m_anaglyph->leftEye(graph, targets);
+    if (leftEye)
+        (next == Eye::Left ? leftEye->depth : targets.depth) = next == Eye::Left ? targets.depth : leftEye->depth;
+    m_eye = next;
+}
 
 void GpuRenderer::drawFrame(const FrameCommands& frame, FrameImage* capture) {
     m_context->ring().timers().enabled = wantsTimes();
@@ -10,28 +31,37 @@ void GpuRenderer::drawFrame(const FrameCommands& frame, FrameImage* capture) {
     followTextures(false);
     m_stages->beginFrame();
     m_raster->beginFrame(m_rasterSettings);
+    m_eye = Eye::Both;
+    m_anaglyph->follow(m_rasterSettings.r_anaglyphMode);
     onGpuFrameBegin(frame);
 
     FrameGraph graph;
-    FrameTargets targets{graph.importImage("target", m_context->target()),
-                         graph.importImage("depth", m_context->depth())};
+    FrameTargets targets = importTargets(graph, m_context->main());
     if (m_rasterSettings.r_clear != 0) m_raster->addClear(graph, targets);
     const std::span<const FrameCommand> commands(frame.commands);
+    std::optional<FrameTargets> leftEye;
     for (size_t i = 0; i < commands.size();) {
+        FrameTargets& eye = leftEye && m_eye == Eye::Left ? *leftEye : targets;
         if (const auto* scene = std::get_if<SceneView>(&commands[i])) {
             if (scene->flags & viewFlag::kNoWorldModel)
-                m_raster->addView(graph, targets, frame, *scene, drawListSettings(), "hud scene");
+                m_raster->addView(graph, eye, frame, *scene, drawListSettings(), "hud scene");
             else
-                drawWorldView(graph, targets, frame, *scene);
+                drawWorldView(graph, eye, frame, *scene);
+            ++i;
+            continue;
+        }
+        if (const auto* next = std::get_if<Eye>(&commands[i])) {
+            changeEye(graph, *next, targets, leftEye);
             ++i;
             continue;
         }
         size_t end = i + 1;
-        while (end < commands.size() && !std::holds_alternative<SceneView>(commands[end]))
+        while (end < commands.size() && !startsPass(commands[end]))
             ++end;
-        m_raster->addUi(graph, targets, commands.subspan(i, end - i), frame.clockMs);
+        m_raster->addUi(graph, eye, commands.subspan(i, end - i), frame.clockMs);
         i = end;
     }
+    if (leftEye) m_anaglyph->addPass(graph, leftEye->color, targets);
     addFrameEnd(graph, targets, capture != nullptr);
     m_context->addPresent(graph, targets.color);
 

@@ -4,13 +4,38 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "gpu/graphics_pipeline.hpp"
 #include "gpu/readback.hpp"
 #include "gpu/software_driver.hpp"
 #include "renderer_vk/window.hpp"
 
 namespace q3rt {
 
-GpuContext::GpuContext(EngineServices& engine, const RasterSettings& settings)
+namespace {
+
+/// As many samples a pixel as asked for or, as OpenGL's windows do it, the next larger number; else the most there are.
+VkSampleCountFlagBits chooseSamples(const Capabilities& can, int wanted) {
+    if (wanted <= 1) return VK_SAMPLE_COUNT_1_BIT;
+    const VkSampleCountFlags offered = can.limits.framebufferColorSampleCounts &
+                                       can.limits.framebufferDepthSampleCounts &
+                                       can.limits.framebufferStencilSampleCounts;
+    VkSampleCountFlagBits chosen = VK_SAMPLE_COUNT_1_BIT;
+    for (int count = 2; count <= VK_SAMPLE_COUNT_64_BIT && chosen < wanted; count *= 2)
+        if (offered & static_cast<VkSampleCountFlags>(count)) chosen = static_cast<VkSampleCountFlagBits>(count);
+    if (chosen < wanted)
+        logLine(LogLevel::Warning, "r_ext_multisample %d: %s has at most %d samples a pixel", wanted,
+                can.deviceName.c_str(), static_cast<int>(chosen));
+    return chosen;
+}
+
+VkExtent2D scaledExtent(VkExtent2D extent, int percent) {
+    const auto scale = [&](uint32_t size) { return std::max(size * static_cast<uint32_t>(percent) / 100, 1u); };
+    return {scale(extent.width), scale(extent.height)};
+}
+
+} // namespace
+
+GpuContext::GpuContext(EngineServices& engine, const RasterSettings& settings, bool rasterizer)
     : m_engine(engine) {
     VideoMode mode = kFallbackMode;
     DeviceOptions options;
@@ -23,8 +48,10 @@ GpuContext::GpuContext(EngineServices& engine, const RasterSettings& settings)
         options.instanceExtensions = m_window->instanceExtensions();
         if (m_window->presents())
             options.createSurface = [this](VkInstance instance) { return m_window->createSurface(instance); };
-    } else if (const auto found = findVideoMode(settings, {kFallbackMode.width, kFallbackMode.height})) {
-        mode = *found;
+    } else {
+        // A picture without a window fills its display if it may.
+        m_fullscreen = settings.r_fullscreen != 0;
+        if (const auto found = findVideoMode(settings, {kFallbackMode.width, kFallbackMode.height})) mode = *found;
     }
     m_extent = {static_cast<uint32_t>(mode.width), static_cast<uint32_t>(mode.height)};
     m_aspect = mode.windowAspect();
@@ -35,36 +62,58 @@ GpuContext::GpuContext(EngineServices& engine, const RasterSettings& settings)
     m_textures = std::make_unique<TextureStore>(*m_device);
     if (m_device->surface() != VK_NULL_HANDLE)
         m_swapchain = std::make_unique<Swapchain>(*m_device, m_window->drawableExtent(), settings.r_swapInterval);
-    createTargets();
+    if (rasterizer) m_samples = chooseSamples(m_device->capabilities(), settings.r_ext_multisample);
+    m_main = makeTargets(m_extent, "target");
+    if (rasterizer && settings.r_renderScale != 100)
+        m_scaledWorld = makeTargets(scaledExtent(m_extent, settings.r_renderScale), "scaled world");
+    m_ramp = std::make_unique<DisplayRamp>(*m_device, m_extent);
 }
 
 GpuContext::~GpuContext() {
     if (m_device) m_device->waitIdle();
 }
 
-void GpuContext::createTargets() {
-    m_target = GpuImage(*m_device, {.extent = m_extent,
-                                    .format = kTargetFormat,
-                                    .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-                                             VK_IMAGE_USAGE_STORAGE_BIT,
-                                    .name = "target"});
-    m_depth = GpuImage(*m_device, {.extent = m_extent,
-                                   .format = depthStencilFormat(*m_device),
-                                   .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
-                                   .name = "depth"});
+TargetImages GpuContext::makeTargets(VkExtent2D extent, const std::string& name) {
+    TargetImages made;
+    made.color = GpuImage(*m_device, {.extent = extent,
+                                      .format = kTargetFormat,
+                                      .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                               VK_IMAGE_USAGE_STORAGE_BIT,
+                                      .name = name});
+    made.depth = GpuImage(*m_device, {.extent = extent,
+                                      .format = depthStencilFormat(*m_device),
+                                      .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                                      .samples = m_samples,
+                                      .name = name + " depth"});
+    if (m_samples != VK_SAMPLE_COUNT_1_BIT)
+        made.samples = GpuImage(*m_device, {.extent = extent,
+                                            .format = kTargetFormat,
+                                            .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
+                                            .samples = m_samples,
+                                            .name = name + " samples"});
     // Black with alpha 1, which nothing ever overwrites; depth far.
     m_device->submitAndWait([&](VkCommandBuffer commands) {
-        const ResourceState written{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
-        m_target.transition(commands, written);
-        m_depth.transition(commands, written);
-        const VkClearColorValue black{.float32 = {0, 0, 0, 1}};
-        const VkClearDepthStencilValue far{1.0f, 0};
-        const VkImageSubresourceRange color{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-        const VkImageSubresourceRange depth{aspectOf(m_depth.info().format), 0, 1, 0, 1};
-        vkCmdClearColorImage(commands, m_target.handle(), written.layout, &black, 1, &color);
-        vkCmdClearDepthStencilImage(commands, m_depth.handle(), written.layout, &far, 1, &depth);
+        const auto become = [&](GpuImage& image, const Access& how) {
+            if (image) image.transition(commands, {how.stages, how.access, how.layout});
+        };
+        become(made.color, access::kColorAttachment);
+        become(made.samples, access::kColorAttachment);
+        become(made.depth, access::kDepthAttachment);
+        Attachment color{.view = made.color.view(),
+                         .load = VK_ATTACHMENT_LOAD_OP_CLEAR,
+                         .clear = {.color = {.float32 = {0, 0, 0, 1}}}};
+        if (made.samples) {
+            color.view = made.samples.view();
+            color.resolve = made.color.view();
+        }
+        const Attachment depth{.view = made.depth.view(),
+                               .load = VK_ATTACHMENT_LOAD_OP_CLEAR,
+                               .clear = {.depthStencil = {1.0f, 0}},
+                               .stencil = true};
+        beginRendering(commands, extent, std::span(&color, 1), depth);
+        vkCmdEndRenderingKHR(commands);
     });
+    return made;
 }
 
 DisplayInfo GpuContext::displayInfo() const {
@@ -84,6 +133,13 @@ DisplayInfo GpuContext::displayInfo() const {
     return info;
 }
 
+std::string GpuContext::describePresentation() const {
+    if (!m_swapchain) return "nowhere, the picture stays in memory";
+    const VkExtent2D size = m_swapchain->extent();
+    return formatText("in a window of %ux%u pixels on display %d, %s", size.width, size.height, m_window->display(),
+                      m_swapchain->describeMode());
+}
+
 void GpuContext::beginFrame() { m_ring->begin(); }
 
 void GpuContext::abandonFrame() {
@@ -92,6 +148,7 @@ void GpuContext::abandonFrame() {
 
 void GpuContext::addPresent(FrameGraph& graph, ImageId target) {
     if (!m_swapchain || !m_swapchain->acquire(m_window->drawableExtent())) return;
+    if (m_ramp->changesPicture()) target = m_ramp->addPass(graph, target);
     ImageId screen = graph.importForeign("screen", m_swapchain->image(), m_swapchain->view(),
                                          {.extent = m_swapchain->extent(), .format = m_swapchain->format()});
     graph.addPass(
@@ -124,14 +181,14 @@ void GpuContext::endFrame(FrameGraph& graph, FrameImage* capture) {
     m_executor->run(graph, *m_ring);
     m_ring->submit(m_swapchain && m_swapchain->acquired() ? m_swapchain.get() : nullptr);
     if (!capture) return;
-    const std::vector<std::byte> rgba = readImage(*m_device, m_target);
+    const std::vector<std::byte> rgba = readImage(*m_device, m_main.color);
     capture->width = static_cast<int>(m_extent.width);
     capture->height = static_cast<int>(m_extent.height);
     const size_t pixels = static_cast<size_t>(m_extent.width) * m_extent.height;
     capture->rgb.resize(pixels * 3);
     for (size_t i = 0; i < pixels; ++i)
         for (size_t c = 0; c < 3; ++c)
-            capture->rgb[i * 3 + c] = static_cast<uint8_t>(rgba[i * 4 + c]);
+            capture->rgb[i * 3 + c] = (*m_ramp)[static_cast<uint8_t>(rgba[i * 4 + c])];
 }
 
 void GpuContext::followWindow(const RasterSettings& settings) {

@@ -2,6 +2,8 @@
 // Device, window and what every frame of every renderer of ours needs of them: targets, resident textures, capture.
 
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "engine/front_end.hpp"
 #include "frame/frame_executor.hpp"
@@ -10,6 +12,7 @@
 #include "gpu/gpu_image.hpp"
 #include "gpu/swapchain.hpp"
 #include "gpu/uploader.hpp"
+#include "renderer_vk/display_ramp.hpp"
 #include "renderer_vk/raster_settings.hpp"
 #include "renderer_vk/texture_store.hpp"
 
@@ -19,9 +22,15 @@ class Window;
 
 inline constexpr VkFormat kTargetFormat = VK_FORMAT_R8G8B8A8_UNORM; ///< the original blends in 8 bits
 
+/// What passes draw into. With several samples a pixel `samples` is drawn to, and `color` holds their means.
+struct TargetImages {
+    GpuImage color, samples, depth;
+};
+
 class GpuContext {
   public:
-    GpuContext(EngineServices& engine, const RasterSettings& settings);
+    /// `rasterizer`: r_ext_multisample and r_renderScale count.
+    GpuContext(EngineServices& engine, const RasterSettings& settings, bool rasterizer);
     ~GpuContext();
     GpuContext(const GpuContext&) = delete;
     GpuContext& operator=(const GpuContext&) = delete;
@@ -33,10 +42,19 @@ class GpuContext {
     TextureStore& textures() { return *m_textures; }
     VkExtent2D extent() const { return m_extent; } ///< pixels; fixed between registrations
     /// The picture: kept over frames, as the original's back buffer is.
-    GpuImage& target() { return m_target; }
-    GpuImage& depth() { return m_depth; }
+    GpuImage& target() { return m_main.color; }
+    TargetImages& main() { return m_main; }
+    VkSampleCountFlagBits samples() const { return m_samples; }
+    /// Where the world is drawn if not into the picture itself; null otherwise.
+    TargetImages* scaledWorld() { return m_scaledWorld ? &*m_scaledWorld : nullptr; }
     DisplayInfo displayInfo() const;
+    /// How frames reach the display, for people.
+    std::string describePresentation() const;
 
+    /// Between the finished picture and the window or a capture.
+    DisplayRamp& ramp() { return *m_ramp; }
+    /// Black. Waits for the device: at loading, or when a setting changes.
+    TargetImages makeTargets(VkExtent2D extent, const std::string& name);
     /// Opens the frame's command buffer.
     void beginFrame();
     /// Adds the pass that shows the target in the window; nothing when headless or minimised.
@@ -50,8 +68,6 @@ class GpuContext {
     void minimize();
 
   private:
-    void createTargets();
-
     EngineServices& m_engine;
     std::unique_ptr<Window> m_window;
     std::unique_ptr<Device> m_device;
@@ -60,7 +76,10 @@ class GpuContext {
     std::unique_ptr<Uploader> m_uploader;
     std::unique_ptr<TextureStore> m_textures;
     std::unique_ptr<Swapchain> m_swapchain;
-    GpuImage m_target, m_depth;
+    std::unique_ptr<DisplayRamp> m_ramp;
+    TargetImages m_main;
+    std::optional<TargetImages> m_scaledWorld;
+    VkSampleCountFlagBits m_samples = VK_SAMPLE_COUNT_1_BIT;
     VkExtent2D m_extent{640, 480};
     float m_aspect = 4.0f / 3.0f;
     bool m_fullscreen = false;

@@ -6,6 +6,7 @@
 #include "base/log.hpp"
 #include "formats/text_case.hpp"
 #include "gpu/device.hpp"
+#include "renderer_vk/anaglyph.hpp"
 
 namespace q3rt {
 
@@ -17,14 +18,18 @@ GpuRenderer::GpuRenderer(EngineServices& engine)
 GpuRenderer::~GpuRenderer() {
     if (m_context) m_context->device().waitIdle();
     m_raster.reset();
+    m_anaglyph.reset();
     m_stages.reset();
 }
 
 DisplayInfo GpuRenderer::openDisplay() {
     if (!m_context) {
-        auto context = std::make_unique<GpuContext>(engine(), m_rasterSettings);
+        auto context = std::make_unique<GpuContext>(engine(), m_rasterSettings, isRasterizer());
         m_raster = std::make_unique<RasterScene>(*context);
+        m_anaglyph = std::make_unique<Anaglyph>(*context);
         m_context = std::move(context);
+        if (m_rasterSettings.r_stereoEnabled != 0)
+            logLine(LogLevel::Warning, "r_stereoEnabled: Vulkan's windows have no stereo; r_anaglyphMode has");
         onDeviceCreated();
     }
     DisplayInfo info = m_context->displayInfo();
@@ -33,10 +38,11 @@ DisplayInfo GpuRenderer::openDisplay() {
 }
 
 void GpuRenderer::onContentCreated() {
-    m_stages = std::make_unique<StageTable>(materials(), textures(), kIdentityLight);
-    m_raster->setContent(materials(), models(), *m_stages);
+    m_stages = std::make_unique<StageTable>(materials(), textures(), identityLight());
+    m_raster->setContent(materials(), models(), *m_stages, settings().r_greyscale);
     m_projectionShadow = knownMaterial("projectionShadow");
     m_sun = knownMaterial("sun");
+    m_flare = knownMaterial("flareShader");
 }
 
 /// The default material if no script has that name.
@@ -65,7 +71,7 @@ void GpuRenderer::onWorldLoaded() {
 
 void GpuRenderer::onEndRegistration() {
     followTextures(true);
-    m_raster->warmPipelines();
+    m_raster->warmPipelines(m_flare);
     onGpuReady();
 }
 
@@ -88,6 +94,7 @@ DrawListSettings GpuRenderer::drawListSettings() const {
     if (settings().cg_shadows == kProjected) result.geometry.shadows = Shadows::Projected;
     result.geometry.projectionShadow = m_projectionShadow;
     result.sun = m_sun;
+    result.flare = m_flare;
     result.fastSky = settings().r_fastsky != 0;
     result.drawWorld = settings().r_drawworld != 0;
     return result;
@@ -95,12 +102,16 @@ DrawListSettings GpuRenderer::drawListSettings() const {
 
 void GpuRenderer::onFrame(const FrameCommands& frame, FrameImage* capture) {
     m_context->followWindow(m_rasterSettings);
+    m_context->ramp().follow(displayRamp());
     try {
         drawFrame(frame, capture);
     } catch (...) {
+        m_raster->abandonFrame();
         m_context->abandonFrame();
         throw;
     }
+    if (const int kind = m_rasterSettings.r_speeds; kind != 0)
+        engine().print(LogLevel::Info, m_raster->describeCounts(kind));
     if (settings().q3rt_wantStats != 0) publishStats();
 }
 
@@ -115,6 +126,23 @@ std::vector<TimerRow> GpuRenderer::passTimes() const {
             sums.push_back(row);
     }
     return sums;
+}
+
+std::vector<std::string> GpuRenderer::displayLines() const {
+    const Capabilities& can = m_context->device().capabilities();
+    std::vector<std::string> lines = {
+        formatText("device: %s, chosen as %s (r_device names another)", can.deviceName.c_str(),
+                   m_context->device().choiceReason().c_str()),
+        formatText("driver: %s %s", can.driverName.c_str(), can.driverInfo.c_str()),
+        formatText("filter: %s, anisotropy %d", m_rasterSettings.r_textureMode.c_str(),
+                   m_rasterSettings.r_ext_texture_filter_anisotropic != 0 ? m_rasterSettings.r_ext_max_anisotropy : 1),
+        formatText("device memory: %.1f MiB in use",
+                   static_cast<double>(m_context->device().memory().measureUse().usedBytes) / (1 << 20))};
+    const VkExtent2D world = m_context->scaledWorld() ? m_context->scaledWorld()->color.extent() : m_context->extent();
+    lines.push_back(formatText("world: drawn with %ux%u pixels, %d samples each", world.width, world.height,
+                               static_cast<int>(m_context->samples())));
+    lines.push_back("shown: " + m_context->describePresentation());
+    return lines;
 }
 
 void GpuRenderer::publishStats() {

@@ -3,12 +3,16 @@
 // 2D, HUD scenes, textures, window and capture are done here.
 
 #include <memory>
+#include <optional>
 
 #include "engine/front_end.hpp"
 #include "renderer_vk/gpu_context.hpp"
 #include "renderer_vk/raster_scene.hpp"
+#include "renderer_vk/video_modes.hpp"
 
 namespace q3rt {
+
+class Anaglyph;
 
 class GpuRenderer : public FrontEnd {
   public:
@@ -63,16 +67,21 @@ class GpuRenderer : public FrontEnd {
     void onFrame(const FrameCommands& frame, FrameImage* capture) final;
     void onContentDropped() final;
     void onMinimize() final { m_context->minimize(); }
+    std::vector<std::string> modeLines() const final { return describeVideoModes(m_rasterSettings); }
+    std::vector<std::string> displayLines() const final;
     void drawFrame(const FrameCommands& frame, FrameImage* capture);
+    void changeEye(FrameGraph& graph, Eye next, FrameTargets& targets, std::optional<FrameTargets>& leftEye);
     void followTextures(bool flush);
     MaterialId knownMaterial(const char* name);
     void publishStats();
 
     RasterSettings m_rasterSettings;
-    MaterialId m_projectionShadow = 0, m_sun = 0; ///< that the renderer draws of its own
+    MaterialId m_projectionShadow = 0, m_sun = 0, m_flare = 0; ///< that the renderer draws of its own
     std::unique_ptr<GpuContext> m_context;
     std::unique_ptr<RasterScene> m_raster;
     std::unique_ptr<StageTable> m_stages;
+    std::unique_ptr<Anaglyph> m_anaglyph;
+    Eye m_eye = Eye::Both; ///< whose picture is being drawn
 };
 
 } // namespace q3rt

@@ -1,7 +1,10 @@
 #include "renderer_vk/pipeline_set.hpp"
 
+#include <bit>
 #include <cstddef>
 #include <set>
+
+#include "gpu/device.hpp"
 
 #include "shaders/shared/raster.h"
 #include "shaders/shared/stage.h"
@@ -155,9 +158,29 @@ StateKey shadowShadeKey() {
     return key;
 }
 
+StateKey flareKey(const Stage& stage) {
+    StateKey key = stageKey(stage, false);
+    key.depthFunc = DepthFunc::Always;
+    key.depthWrite = false;
+    return key;
+}
+
+StateKey flareTestKey() {
+    StateKey key = depthKey();
+    key.depthWrite = false;
+    return key;
+}
+
 StateKey edgesKey(bool clipped) {
     StateKey key;
     key.lines = true;
+    key.clipped = clipped;
+    return key;
+}
+
+StateKey normalsKey(bool clipped) {
+    StateKey key;
+    key.segments = true;
     key.clipped = clipped;
     return key;
 }
@@ -170,16 +193,23 @@ StateKey skyBoxKey(bool clipped) {
 }
 
 PipelineSet::PipelineSet(Device& device, VkDescriptorSetLayout frameLayout, VkDescriptorSetLayout textureLayout,
-                         VkFormat depthFormat)
+                         VkFormat depthFormat, VkSampleCountFlagBits samples)
     : m_device(device)
     , m_frameLayout(frameLayout)
     , m_textureLayout(textureLayout)
-    , m_depthFormat(depthFormat) {}
+    , m_depthFormat(depthFormat)
+    , m_samples(samples) {}
+
+void PipelineSet::setGreyscale(float amount) {
+    if (amount != m_greyscale) m_pipelines.clear();
+    m_greyscale = amount;
+}
 
 const GraphicsPipeline& PipelineSet::find(const StateKey& key) {
     if (const auto known = m_pipelines.find(key); known != m_pipelines.end()) return known->second;
     // The vertex shader branches on the stage's data: equal code for all pipelines of a pass is compiled once.
-    const std::vector<uint32_t> vertexConstants = {key.pass, 0, 0, key.clipped ? 1u : 0u};
+    const std::vector<uint32_t> vertexConstants = {key.pass, 0, 0, key.clipped ? 1u : 0u,
+                                                   std::bit_cast<uint32_t>(m_greyscale)};
     const std::vector<uint32_t> constants = {key.pass, static_cast<uint32_t>(key.combine),
                                              static_cast<uint32_t>(key.alphaTest), key.clipped ? 1u : 0u};
     GraphicsPipelineInfo info;
@@ -194,7 +224,9 @@ const GraphicsPipeline& PipelineSet::find(const StateKey& key) {
     info.depthWrite = key.depthWrite;
     info.depthCompare = toVulkan(key.depthFunc);
     info.depthFormat = m_depthFormat;
+    info.samples = m_samples;
     info.stencil = stencilState(key.stencil);
+    if (key.segments) info.topology = VK_PRIMITIVE_TOPOLOGY_LINE_LIST;
     if (key.lines) info.polygonMode = VK_POLYGON_MODE_LINE;
     info.colorFormats = {VK_FORMAT_R8G8B8A8_UNORM};
     info.blends = {{key.blended, toVulkan(key.source), toVulkan(key.destination), VK_BLEND_OP_ADD, writeMaskOf(key)}};
@@ -202,12 +234,16 @@ const GraphicsPipeline& PipelineSet::find(const StateKey& key) {
     return m_pipelines.emplace(key, GraphicsPipeline(m_device, info)).first->second;
 }
 
-std::vector<StateKey> PipelineSet::statesOf(const MaterialLibrary& materials, bool clipped) {
-    std::set<StateKey> states = {depthKey(), overlayKey(), shadowShadeKey()};
+std::vector<StateKey> PipelineSet::statesOf(const MaterialLibrary& materials, bool clipped, MaterialId flare) const {
+    std::set<StateKey> states = {depthKey(), overlayKey(), shadowShadeKey(), flareTestKey()};
+    for (const Stage& stage : materials.get(flare).stages)
+        states.insert(flareKey(stage));
     for (const bool clips : {false, true}) {
         if (clips && !clipped) continue;
         states.insert({skyBoxKey(clips), lightKey(false, clips), lightKey(true, clips), fogKey(true, clips),
-                       fogKey(false, clips), shadowVolumeKey(true, clips), shadowVolumeKey(false, clips)});
+                       fogKey(false, clips), shadowVolumeKey(true, clips), shadowVolumeKey(false, clips),
+                       normalsKey(clips)});
+        if (m_device.capabilities().fillModeNonSolid) states.insert(edgesKey(clips));
     }
     for (size_t i = 0; i < materials.count(); ++i) {
         for (const Stage& stage : materials.get(static_cast<MaterialId>(i)).stages) {

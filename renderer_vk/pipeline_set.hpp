@@ -20,8 +20,9 @@ struct StateKey {
     Combine combine = Combine::Single;
     uint8_t pass = 0; ///< kPass*
     StencilUse stencil = StencilUse::None;
-    bool lines = false;   ///< edges of the triangles
-    bool clipped = false; ///< portal views
+    bool lines = false;    ///< edges of the triangles
+    bool segments = false; ///< pairs of vertices
+    bool clipped = false;  ///< portal views
     auto operator<=>(const StateKey&) const = default;
 };
 
@@ -36,18 +37,27 @@ StateKey depthKey();
 StateKey shadowVolumeKey(bool up, bool clipped);
 /// Multiplies what lies in a shadow volume.
 StateKey shadowShadeKey();
+/// A stage of a flare: whatever its depth.
+StateKey flareKey(const Stage& stage);
+/// Asks whether a flare is seen.
+StateKey flareTestKey();
 /// White edges over everything: r_showtris.
 StateKey edgesKey(bool clipped);
+/// White lines over everything: r_shownormals.
+StateKey normalsKey(bool clipped);
 /// Opaque, no depth write: sky boxes.
 StateKey skyBoxKey(bool clipped);
 
 class PipelineSet {
   public:
     PipelineSet(Device& device, VkDescriptorSetLayout frameLayout, VkDescriptorSetLayout textureLayout,
-                VkFormat depthFormat);
+                VkFormat depthFormat, VkSampleCountFlagBits samples);
     const GraphicsPipeline& find(const StateKey& key);
-    /// Every state that drawing these materials needs; `clipped` also those for portal views.
-    static std::vector<StateKey> statesOf(const MaterialLibrary& materials, bool clipped);
+    /// r_greyscale of all colours; a change drops every pipeline. The device is idle.
+    void setGreyscale(float amount);
+    /// Every state that drawing these materials needs; `clipped` also those for portal views, `flare` is that of
+    /// flares.
+    std::vector<StateKey> statesOf(const MaterialLibrary& materials, bool clipped, MaterialId flare) const;
     bool known(const StateKey& key) const { return m_pipelines.contains(key); }
     size_t size() const { return m_pipelines.size(); }
 
@@ -55,6 +65,8 @@ class PipelineSet {
     Device& m_device;
     VkDescriptorSetLayout m_frameLayout, m_textureLayout;
     VkFormat m_depthFormat;
+    VkSampleCountFlagBits m_samples;
+    float m_greyscale = 0;
     std::map<StateKey, GraphicsPipeline> m_pipelines;
 };
 

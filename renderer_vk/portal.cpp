@@ -123,7 +123,8 @@ std::optional<RasterView> makePortalView(const RasterView& view, const Plane& pl
     const auto& [surface, camera, pvsOrigin, mirror] = *frames;
     RasterView out = view;
     out.portal = true;
-    out.mirrored = mirror;
+    ++out.portalDepth;
+    out.mirrored = view.mirrored != mirror;
     out.pvsOrigin = pvsOrigin;
     out.eye.origin = camera.origin + toCamera(view.eye.origin - surface.origin, surface, camera);
     for (int i = 0; i < 3; ++i)

@@ -49,7 +49,23 @@ VkRect2D scissorOf(const ViewDraw& view, VkExtent2D extent) {
     return {{left, top}, {static_cast<uint32_t>(right - left), static_cast<uint32_t>(bottom - top)}};
 }
 
+void writeTargets(PassBuilder& pass, FrameTargets& targets) {
+    targets.color = pass.write(targets.color, access::kColorAttachment);
+    targets.depth = pass.write(targets.depth, access::kDepthAttachment);
+    if (targets.samples) targets.samples = pass.write(targets.samples, access::kColorAttachment);
+}
+
 } // namespace
+
+FrameTargets importTargets(FrameGraph& graph, TargetImages& images) {
+    const auto import = [&](GpuImage& image) { return graph.importImage(image.info().name.c_str(), image); };
+    return {import(images.color), import(images.depth), images.samples ? import(images.samples) : ImageId{}};
+}
+
+Attachment colorAttachment(PassContext& pass, const FrameTargets& targets) {
+    if (!targets.samples) return {.view = pass.view(targets.color)};
+    return {.view = pass.view(targets.samples), .resolve = pass.view(targets.color)};
+}
 
 /// What the command buffer has now, so that equal state is not set again.
 struct RasterScene::BoundState {
@@ -60,21 +76,29 @@ struct RasterScene::BoundState {
 RasterScene::RasterScene(GpuContext& context)
     : m_context(context)
     , m_frameLayout(makeFrameLayout(context.device()))
-    , m_pipelines(context.device(), m_frameLayout.handle(), context.textures().layout(), context.depth().info().format)
+    , m_pipelines(context.device(), m_frameLayout.handle(), context.textures().layout(), context.main().depth.format(),
+                  context.samples())
     , m_vertexStream(context.device(), streamInfo(VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "vertex stream"),
                      context.ring().framesInFlight())
     , m_indexStream(context.device(), streamInfo(VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "index stream"),
                     context.ring().framesInFlight())
     , m_storageStream(context.device(), streamInfo(VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "storage stream"),
                       context.ring().framesInFlight())
-    , m_bound(std::make_unique<BoundState>()) {}
+    , m_flareQueries(context.device(), context.ring().framesInFlight())
+    , m_askedFlares(context.ring().framesInFlight())
+    , m_bound(std::make_unique<BoundState>()) {
+    if (TargetImages* scaled = context.scaledWorld())
+        m_upscaler = std::make_unique<Upscaler>(context.device(), *scaled, context.main());
+}
 
 RasterScene::~RasterScene() = default;
 
-void RasterScene::setContent(const MaterialLibrary& materials, const ModelLibrary& models, StageTable& stages) {
+void RasterScene::setContent(const MaterialLibrary& materials, const ModelLibrary& models, StageTable& stages,
+                             float greyscale) {
     m_materials = &materials;
     m_models = &models;
     m_stages = &stages;
+    m_pipelines.setGreyscale(greyscale);
     setWorld(nullptr);
 }
 
@@ -104,6 +128,7 @@ void RasterScene::dropContent() {
 }
 
 void RasterScene::beginFrame(const RasterSettings& settings) {
+    m_debugSort = settings.r_debugSort;
     m_showEdges = settings.r_showtris != 0;
     if (m_showEdges && !m_context.device().capabilities().fillModeNonSolid) {
         m_showEdges = false;
@@ -117,7 +142,20 @@ void RasterScene::beginFrame(const RasterSettings& settings) {
     m_indexStream.beginFrame(slot);
     m_storageStream.beginFrame(slot);
     m_frameSet = VK_NULL_HANDLE;
+    if (m_builder) m_builder->beginFrame(m_context.ring().frameNumber());
+    readFlareTests(slot);
 }
+
+void RasterScene::readFlareTests(uint32_t slot) {
+    m_flareQueries.beginFrame(slot, m_context.ring().frameNumber());
+    std::vector<FlareKey>& asked = m_askedFlares[slot];
+    const std::vector<uint8_t>& answers = m_flareQueries.answers();
+    for (size_t i = 0; m_builder && i < std::min(asked.size(), answers.size()); ++i)
+        m_builder->fades().answer(asked[i], m_flareQueries.answeredFrame(), answers[i] != 0);
+    asked.clear();
+}
+
+void RasterScene::abandonFrame() { m_flareQueries.abandonFrame(); }
 
 void RasterScene::addView(FrameGraph& graph, FrameTargets& targets, const FrameCommands& frame, const SceneView& scene,
                           const DrawListSettings& settings, const char* pass) {
@@ -125,23 +163,41 @@ void RasterScene::addView(FrameGraph& graph, FrameTargets& targets, const FrameC
     m_offsetFactor = settings.raster.r_offsetFactor;
     m_offsetUnits = settings.raster.r_offsetUnits;
     m_depthFirst = settings.raster.r_depthFirst != 0;
+    if (m_upscaler && (scene.flags & viewFlag::kNoWorldModel) == 0) {
+        addScaledView(graph, targets, frame, scene, settings, pass);
+        return;
+    }
     const auto first = static_cast<uint32_t>(m_data.views.size());
     m_builder->addScene(frame, scene, settings, m_data);
     recordPass(graph, targets, pass, first, static_cast<uint32_t>(m_data.views.size()) - first);
 }
 
+void RasterScene::addScaledView(FrameGraph& graph, FrameTargets& targets, const FrameCommands& frame,
+                                const SceneView& scene, const DrawListSettings& settings, const char* pass) {
+    TargetImages& images = *m_context.scaledWorld();
+    FrameTargets world = importTargets(graph, images);
+    const VkRect2D shown = {{scene.x, scene.y},
+                            {static_cast<uint32_t>(scene.width), static_cast<uint32_t>(scene.height)}};
+    const VkRect2D drawn = Upscaler::scaledArea(shown, m_context.extent(), images.color.extent());
+    SceneView scaled = scene;
+    scaled.x = drawn.offset.x;
+    scaled.y = drawn.offset.y;
+    scaled.width = static_cast<int>(drawn.extent.width);
+    scaled.height = static_cast<int>(drawn.extent.height);
+    const auto first = static_cast<uint32_t>(m_data.views.size());
+    m_builder->addScene(frame, scaled, settings, m_data);
+    recordPass(graph, world, pass, first, static_cast<uint32_t>(m_data.views.size()) - first);
+    m_upscaler->addPass(graph, world.color, drawn, targets, shown);
+}
+
 void RasterScene::addClear(FrameGraph& graph, FrameTargets& targets) {
     graph.addPass(
-        "clear",
-        [&](PassBuilder& pass) {
-            targets.color = pass.write(targets.color, access::kColorAttachment);
-            targets.depth = pass.write(targets.depth, access::kDepthAttachment);
-        },
+        "clear", [&](PassBuilder& pass) { writeTargets(pass, targets); },
         [current = targets](PassContext& pass) {
             // A colour that no map has: what no surface covers shows it.
-            const Attachment color{.view = pass.view(current.color),
-                                   .load = VK_ATTACHMENT_LOAD_OP_CLEAR,
-                                   .clear = {.color = {.float32 = {1.0f, 0.0f, 0.5f, 1.0f}}}};
+            Attachment color = colorAttachment(pass, current);
+            color.load = VK_ATTACHMENT_LOAD_OP_CLEAR;
+            color.clear = {.color = {.float32 = {1.0f, 0.0f, 0.5f, 1.0f}}};
             const Attachment depth{.view = pass.view(current.depth),
                                    .load = VK_ATTACHMENT_LOAD_OP_CLEAR,
                                    .clear = {.depthStencil = {1.0f, 0}},
@@ -153,17 +209,13 @@ void RasterScene::addClear(FrameGraph& graph, FrameTargets& targets) {
 
 void RasterScene::recordPass(FrameGraph& graph, FrameTargets& targets, const char* name, uint32_t firstView,
                              uint32_t viewCount) {
-    if (!m_runs.empty() && graph.passes().size() == m_graphPasses) {
+    if (!m_runs.empty() && graph.passes().size() == m_graphPasses && m_runs.back().target == targets.color.index) {
         m_runs.back().viewCount += viewCount;
         return;
     }
-    m_runs.push_back({firstView, viewCount});
+    m_runs.push_back({firstView, viewCount, targets.color.index});
     graph.addPass(
-        name,
-        [&](PassBuilder& pass) {
-            targets.color = pass.write(targets.color, access::kColorAttachment);
-            targets.depth = pass.write(targets.depth, access::kDepthAttachment);
-        },
+        name, [&](PassBuilder& pass) { writeTargets(pass, targets); },
         [this, current = targets, run = m_runs.size() - 1](PassContext& pass) {
             recordViews(pass, current, m_runs[run].firstView, m_runs[run].viewCount);
         });
@@ -172,6 +224,9 @@ void RasterScene::recordPass(FrameGraph& graph, FrameTargets& targets, const cha
 
 void RasterScene::uploadFrame() {
     if (!m_stages) return;
+    for (const FlareTest& test : m_data.flareTests)
+        m_askedFlares[m_context.ring().slot()].push_back(test.key);
+    m_flareQueries.reserve(m_context.ring().commands(), static_cast<uint32_t>(m_data.flareTests.size()));
     m_vertexSlice = m_vertexStream.append(std::span<const Vertex>(m_data.vertices));
     m_indexSlice = m_indexStream.append(std::span<const uint32_t>(m_data.indices));
     if (m_showEdges) {
@@ -208,7 +263,7 @@ void RasterScene::bindFrame(PassContext& pass) {
 }
 
 void RasterScene::recordViews(PassContext& pass, FrameTargets targets, uint32_t firstView, uint32_t viewCount) {
-    const Attachment color{.view = pass.view(targets.color)};
+    const Attachment color = colorAttachment(pass, targets);
     const Attachment depth{.view = pass.view(targets.depth), .stencil = true};
     beginRendering(pass.commands(), pass.extent(targets.color), std::span(&color, 1), depth);
     bindFrame(pass);
@@ -238,6 +293,7 @@ void RasterScene::recordView(PassContext& pass, const ViewDraw& view, VkExtent2D
         recordBatch(pass.commands(), view, batch);
         if (m_showEdges && batch.own == OwnDraw::None) recordEdges(pass.commands(), view, batch);
     }
+    recordFlareTests(pass.commands(), view);
 }
 
 /// A vertex costs about what a pixel does: a small picture is shaded sooner than its depth is drawn.
@@ -303,6 +359,31 @@ void RasterScene::recordBatch(VkCommandBuffer commands, const ViewDraw& view, co
     }
 }
 
+void RasterScene::recordFlares(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch) {
+    const Material& material = m_materials->get(batch.material);
+    RasterDraw constants{};
+    constants.entity = batch.entity;
+    for (size_t i = 0; i < std::min<size_t>(material.stages.size(), batch.stages.count); ++i) {
+        constants.stage = batch.stages.first + static_cast<uint32_t>(i);
+        draw(commands, flareKey(material.stages[i]), constants, batch, false, CullMode::None, view);
+    }
+}
+
+void RasterScene::recordFlareTests(VkCommandBuffer commands, const ViewDraw& view) {
+    DrawBatch pixel;
+    pixel.source = VertexSource::Dynamic;
+    pixel.indexCount = 6;
+    RasterDraw constants{};
+    constants.entity = view.flareEntity;
+    constants.pass = kPassDepth;
+    for (uint32_t i = view.firstFlareTest; i < view.firstFlareTest + view.flareTestCount; ++i) {
+        pixel.firstIndex = m_data.flareTests[i].firstIndex;
+        m_flareQueries.begin(commands, i);
+        draw(commands, flareTestKey(), constants, pixel, false, CullMode::None, view);
+        m_flareQueries.end(commands, i);
+    }
+}
+
 void RasterScene::recordOwn(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch,
                             RasterDraw constants) {
     constants.stage = m_tableStageCount + (batch.stages.first & ~kOwnStageBit);
@@ -316,6 +397,12 @@ void RasterScene::recordOwn(VkCommandBuffer commands, const ViewDraw& view, cons
         break;
     case OwnDraw::ShadowShade:
         draw(commands, shadowShadeKey(), constants, batch, false, CullMode::None, view);
+        break;
+    case OwnDraw::Normals:
+        draw(commands, normalsKey(view.clipped), constants, batch, false, CullMode::None, view);
+        break;
+    case OwnDraw::Flares:
+        recordFlares(commands, view, batch);
         break;
     case OwnDraw::Overlay:
     case OwnDraw::None:

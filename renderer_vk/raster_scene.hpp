@@ -9,9 +9,11 @@
 
 #include "frame/frame_executor.hpp"
 #include "gpu/growing_buffer.hpp"
+#include "gpu/occlusion_queries.hpp"
 #include "renderer_vk/draw_list.hpp"
 #include "renderer_vk/gpu_context.hpp"
 #include "renderer_vk/pipeline_set.hpp"
+#include "renderer_vk/upscaler.hpp"
 
 namespace q3rt {
 
@@ -19,7 +21,11 @@ namespace q3rt {
 struct FrameTargets {
     ImageId color;
     ImageId depth;
+    ImageId samples; ///< none: one a pixel
 };
+FrameTargets importTargets(FrameGraph& graph, TargetImages& images);
+/// The colour that a pass draws to.
+Attachment colorAttachment(PassContext& pass, const FrameTargets& targets);
 
 class RasterScene {
   public:
@@ -29,11 +35,11 @@ class RasterScene {
     RasterScene& operator=(const RasterScene&) = delete;
 
     /// New libraries: everything of the old ones is forgotten. `world` may be null, and may be set later.
-    void setContent(const MaterialLibrary& materials, const ModelLibrary& models, StageTable& stages);
+    void setContent(const MaterialLibrary& materials, const ModelLibrary& models, StageTable& stages, float greyscale);
     void setWorld(const World* world);
     void dropContent();
     /// Creates and warms the pipelines of all materials known now.
-    void warmPipelines();
+    void warmPipelines(MaterialId flare);
 
     void beginFrame(const RasterSettings& settings);
     /// A pass "clear" that fills the targets: r_clear.
@@ -49,6 +55,12 @@ class RasterScene {
     /// Sends what was gathered to the GPU. Call after the last add, before the graph runs.
     void uploadFrame();
 
+    /// After an error: what was gathered is never drawn.
+    void abandonFrame();
+
+    /// A line of what the frame holds (r_speeds, counted if it is set); after uploadFrame().
+    std::string describeCounts(int kind) const { return m_builder ? m_builder->describeCounts(kind, m_data) : ""; }
+
     /// Pipelines that exist; does not rise while drawing what was known at warmPipelines().
     size_t pipelineCount() const { return m_pipelines.size(); }
     /// StageTable of the frame on the GPU (StageState[]); valid after uploadFrame().
@@ -61,6 +73,9 @@ class RasterScene {
     void recordView(PassContext& pass, const ViewDraw& view, VkExtent2D extent);
     bool depthFirstPays(const ViewDraw& view) const;
     void recordDepth(VkCommandBuffer commands, const ViewDraw& view);
+    void recordFlares(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch);
+    void recordFlareTests(VkCommandBuffer commands, const ViewDraw& view);
+    void readFlareTests(uint32_t slot);
     void recordEdges(VkCommandBuffer commands, const ViewDraw& view, DrawBatch batch);
     void recordBatch(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch);
     void recordOwn(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch, RasterDraw constants);
@@ -72,6 +87,8 @@ class RasterScene {
     void addUiCinematic(const CinematicPicture& picture, uint32_t entity);
     void appendQuad(const Picture& quad);
     void recordPass(FrameGraph& graph, FrameTargets& targets, const char* name, uint32_t firstView, uint32_t viewCount);
+    void addScaledView(FrameGraph& graph, FrameTargets& targets, const FrameCommands& frame, const SceneView& scene,
+                       const DrawListSettings& settings, const char* pass);
 
     GpuContext& m_context;
     const MaterialLibrary* m_materials = nullptr;
@@ -80,6 +97,7 @@ class RasterScene {
     std::unique_ptr<DrawListBuilder> m_builder;
     DescriptorLayout m_frameLayout;
     PipelineSet m_pipelines;
+    std::unique_ptr<Upscaler> m_upscaler; ///< if the world is drawn at a scale
     FrameDrawData m_data;
     Buffer m_worldVertices;
     bool m_worldHasPortals = false; ///< pipelines of portal views are wanted
@@ -89,11 +107,15 @@ class RasterScene {
     uint32_t m_tableStageCount = 0;
     struct ViewRun {
         uint32_t firstView = 0, viewCount = 0;
+        uint32_t target = 0; ///< the graph's number of it
     };
     std::vector<ViewRun> m_runs; ///< a pass each
     size_t m_graphPasses = 0;    ///< when the last of them had been added
+    OcclusionQueries m_flareQueries;
+    std::vector<std::vector<FlareKey>> m_askedFlares; ///< by slot of the ring
     bool m_depthFirst = false, m_showEdges = false;
     uint32_t m_edgeStage = 0; ///< of FrameDrawData::ownStages
+    float m_debugSort = 0;
     float m_offsetFactor = -1, m_offsetUnits = -2;
     struct BoundState;
     std::unique_ptr<BoundState> m_bound;

@@ -49,6 +49,7 @@ void RasterScene::addUiPicture(const Picture& picture, uint32_t entity, int cloc
     const MaterialId asked = handle < m_materials->count() ? static_cast<MaterialId>(handle) : 0;
     const MaterialId remapped = m_materials->get(asked).remappedTo;
     const MaterialId id = remapped ? remapped : asked;
+    if (m_debugSort > 0 && m_materials->get(id).sort > m_debugSort) return;
     auto& batches = m_data.batches;
     if (batches.size() > firstBatch && batches.back().own == OwnDraw::None && batches.back().material == id) {
         appendQuad(picture);
@@ -78,7 +79,7 @@ void RasterScene::addUiCinematic(const CinematicPicture& picture, uint32_t entit
     batch.indexCount = 6;
     StageState state{};
     state.unit[0].texture = state.unit[1].texture = builtinTexture::kScratch0 + static_cast<uint32_t>(picture.slot);
-    state.color = vec4(1.0f);
+    state.color = vec4(vec3(m_stages->identityLight()), 1.0f);
     m_data.ownStages.push_back(state);
     // Half a texel inside, so that the filter doesn't reach over the border.
     const float insetS = 0.5f / static_cast<float>(picture.columns), insetT = 0.5f / static_cast<float>(picture.rows);
@@ -106,10 +107,10 @@ void RasterScene::addUi(FrameGraph& graph, FrameTargets& targets, std::span<cons
     recordPass(graph, targets, "ui", static_cast<uint32_t>(m_data.views.size()) - 1, 1);
 }
 
-void RasterScene::warmPipelines() {
+void RasterScene::warmPipelines(MaterialId flare) {
     if (!m_materials) return;
     std::vector<StateKey> fresh;
-    for (const StateKey& key : PipelineSet::statesOf(*m_materials, m_worldHasPortals))
+    for (const StateKey& key : m_pipelines.statesOf(*m_materials, m_worldHasPortals, flare))
         if (!m_pipelines.known(key)) fresh.push_back(key);
     if (fresh.empty()) return;
     logLine(LogLevel::Developer, "%zu raster pipelines to compile", fresh.size());
@@ -126,7 +127,8 @@ void RasterScene::warmPipelines() {
     const VkDescriptorSet set =
         arena.make(m_frameLayout, {bindStorageBuffer(0, buffer.handle()), bindStorageBuffer(1, buffer.handle()),
                                    bindStorageBuffer(2, buffer.handle()), bindStorageBuffer(3, buffer.handle())});
-    GpuImage &target = m_context.target(), &depth = m_context.depth();
+    TargetImages& main = m_context.main();
+    GpuImage &target = main.samples ? main.samples : main.color, &depth = main.depth;
     device.submitAndWait([&](VkCommandBuffer commands) {
         target.transition(commands, {access::kColorAttachment.stages, access::kColorAttachment.access,
                                      access::kColorAttachment.layout});

@@ -2,7 +2,9 @@
 // Window sizes by r_mode (spec of models, section 9).
 
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "renderer_vk/raster_settings.hpp"
 
@@ -16,6 +18,9 @@ struct VideoMode {
 
 /// The mode of r_mode; `desktop` is the size for mode -2. Nullopt: there is no such mode.
 std::optional<VideoMode> findVideoMode(const RasterSettings& settings, std::pair<int, int> desktop);
+
+/// A line a mode, for people.
+std::vector<std::string> describeVideoModes(const RasterSettings& settings);
 
 /// What the original falls back to.
 inline constexpr VideoMode kFallbackMode{640, 480, 1};

@@ -19,28 +19,49 @@ RasterView makeMainView(const SceneView& scene, float nearQu) {
     return view;
 }
 
-void updateFrustum(RasterView& view) {
-    const vec3 &forward = view.eye.axis[0], &left = view.eye.axis[1], &up = view.eye.axis[2];
-    const float tx = view.tanHalfX, ty = view.tanHalfY;
-    const float lengthX = std::sqrt(1.0f + tx * tx), lengthY = std::sqrt(1.0f + ty * ty);
-    const vec3 normals[4] = {(forward * tx + left) / lengthX, (forward * tx - left) / lengthX,
-                             (forward * ty + up) / lengthY, (forward * ty - up) / lengthY};
-    for (size_t i = 0; i < 4; ++i)
-        view.frustum[i] = {normals[i], glm::dot(normals[i], view.eye.origin)};
+void separateEye(RasterView& view, float projectionQu, float divisor) {
+    if (view.scene->eye == Eye::Both || divisor == 0) return;
+    view.projectionQu = projectionQu;
+    view.stereoDivisor = view.scene->eye == Eye::Left ? divisor : -divisor;
+    view.eyeShiftQu = projectionQu / view.stereoDivisor;
+    updateFrustum(view);
 }
 
-void updateProjection(RasterView& view) {
+void updateFrustum(RasterView& view) {
+    const vec3 &forward = view.eye.axis[0], &left = view.eye.axis[1], &up = view.eye.axis[2];
+    const float tx = view.tanHalfX, ty = view.tanHalfY, shift = view.eyeShiftQu;
+    // The eye moves, and the side planes slope so that they still meet the edges of the plane where both eyes agree.
+    const vec3 apex = view.eye.origin + left * shift;
+    const float slope = shift / view.projectionQu;
+    const vec3 normals[4] = {glm::normalize(forward * (tx + slope) + left),
+                             glm::normalize(forward * (tx - slope) - left), glm::normalize(forward * ty + up),
+                             glm::normalize(forward * ty - up)};
+    for (size_t i = 0; i < 4; ++i)
+        view.frustum[i] = {normals[i], glm::dot(normals[i], apex)};
+}
+
+namespace {
+
+mat4 projectionOf(const RasterView& view, double eyeShiftQu, double projectionQu) {
     const dvec3 eye(view.eye.origin);
     const dvec3 forward(view.eye.axis[0]), left(view.eye.axis[1]), up(view.eye.axis[2]);
-    const double n = view.nearQu, f = std::max(view.farQu, view.nearQu * 2.0f);
-    const dvec3 x = -left / static_cast<double>(view.tanHalfX), y = -up / static_cast<double>(view.tanHalfY);
+    const double n = view.nearQu, f = std::max(view.farQu, view.nearQu * 2.0f), tx = view.tanHalfX;
+    const dvec3 x = (-left - forward * (eyeShiftQu / projectionQu)) / tx, y = -up / static_cast<double>(view.tanHalfY);
     const dvec3 z = forward * (f / (f - n));
     glm::dmat4 m(0.0);
     for (int c = 0; c < 3; ++c)
         m[c] = glm::dvec4(x[c], y[c], z[c], forward[c]);
-    m[3] =
-        glm::dvec4(-glm::dot(x, eye), -glm::dot(y, eye), -glm::dot(z, eye) - f * n / (f - n), -glm::dot(forward, eye));
-    view.clipFromWorld = mat4(m);
+    m[3] = glm::dvec4(eyeShiftQu / tx - glm::dot(x, eye), -glm::dot(y, eye), -glm::dot(z, eye) - f * n / (f - n),
+                      -glm::dot(forward, eye));
+    return mat4(m);
+}
+
+} // namespace
+
+void updateProjection(RasterView& view) {
+    view.clipFromWorld = view.clipFromWorldNear = projectionOf(view, view.eyeShiftQu, view.projectionQu);
+    if (view.stereoDivisor != 0)
+        view.clipFromWorldNear = projectionOf(view, view.nearQu / view.stereoDivisor, view.nearQu);
 }
 
 float farthestCornerQu(const vec3& eye, const Bounds& bounds) {

@@ -13,6 +13,7 @@ struct DrawListBuilder::ViewMemory {
     std::vector<int> entityIndices; ///< by geometry entity: index in out.entities, -1 not yet
     std::vector<int> fogIndices;    ///< by fog number, -1 not yet
     std::vector<CullResult> entityCull;
+    std::vector<ViewFlare> flares;
     std::vector<int> deformedSurface; ///< by world surface: index in geometry.surfaces, -1 drawn as it is
 };
 
@@ -29,6 +30,7 @@ struct DrawListBuilder::ViewWork {
         , entityIndices(memory.entityIndices)
         , fogIndices(memory.fogIndices)
         , entityCull(memory.entityCull)
+        , flares(memory.flares)
         , deformedSurface(memory.deformedSurface) {
         items.clear();
     }
@@ -42,6 +44,7 @@ struct DrawListBuilder::ViewWork {
     std::vector<Item>& items;
     std::vector<int>&entityIndices, &fogIndices;
     std::vector<CullResult>& entityCull;
+    std::vector<ViewFlare>& flares;
     std::vector<int>& deformedSurface;
     bool skyDrawn = false;
     uint32_t vertexBase = 0; ///< of geometry.vertices in out.vertices

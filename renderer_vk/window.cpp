@@ -24,6 +24,8 @@ struct Window::Sdl {
     decltype(&SDL_DestroyWindow) destroyWindow;
     decltype(&SDL_SetWindowFullscreen) setWindowFullscreen;
     decltype(&SDL_MinimizeWindow) minimizeWindow;
+    decltype(&SDL_GetNumVideoDisplays) getNumVideoDisplays;
+    decltype(&SDL_GetWindowDisplayIndex) getWindowDisplayIndex;
     decltype(&SDL_GetDesktopDisplayMode) getDesktopDisplayMode;
     decltype(&SDL_GetNumDisplayModes) getNumDisplayModes;
     decltype(&SDL_GetDisplayMode) getDisplayMode;
@@ -50,6 +52,8 @@ struct Window::Sdl {
         load(destroyWindow, "SDL_DestroyWindow");
         load(setWindowFullscreen, "SDL_SetWindowFullscreen");
         load(minimizeWindow, "SDL_MinimizeWindow");
+        load(getNumVideoDisplays, "SDL_GetNumVideoDisplays");
+        load(getWindowDisplayIndex, "SDL_GetWindowDisplayIndex");
         load(getDesktopDisplayMode, "SDL_GetDesktopDisplayMode");
         load(getNumDisplayModes, "SDL_GetNumDisplayModes");
         load(getDisplayMode, "SDL_GetDisplayMode");
@@ -76,6 +80,7 @@ Window::Window(EngineServices& engine, const RasterSettings& settings)
     : m_engine(engine)
     , m_sdl(std::make_unique<Sdl>()) {
     openVideo();
+    chooseDisplay(settings.r_display);
     try {
         openWindow(settings);
     } catch (...) {
@@ -102,9 +107,19 @@ void Window::openVideo() {
     m_engine.cvar("r_sdlDriver", name, cvarFlag::kReadOnly);
 }
 
+void Window::chooseDisplay(int wanted) {
+    const int count = m_sdl->getNumVideoDisplays();
+    m_wantedDisplay = wanted < count ? wanted : 0;
+    if (m_wantedDisplay != wanted)
+        logLine(LogLevel::Warning, "r_display %d: there is no such display, only 0 to %d; using 0", wanted,
+                std::max(count, 1) - 1);
+}
+
+int Window::display() const { return std::max(m_sdl->getWindowDisplayIndex(asSdl(m_window)), 0); }
+
 std::pair<int, int> Window::desktopSize() const {
     SDL_DisplayMode mode{};
-    if (m_sdl->getDesktopDisplayMode(0, &mode) != 0 || mode.w <= 0 || mode.h <= 0)
+    if (m_sdl->getDesktopDisplayMode(m_wantedDisplay, &mode) != 0 || mode.w <= 0 || mode.h <= 0)
         return {kFallbackMode.width, kFallbackMode.height};
     return {mode.w, mode.h};
 }
@@ -117,8 +132,9 @@ void Window::openWindow(const RasterSettings& settings) {
         mode = kFallbackMode;
         fullscreen = false;
     }
-    const int place = settings.r_centerWindow != 0 ? static_cast<int>(SDL_WINDOWPOS_CENTERED)
-                                                   : static_cast<int>(SDL_WINDOWPOS_UNDEFINED);
+    const auto onDisplay = static_cast<unsigned>(m_wantedDisplay);
+    const auto place = static_cast<int>(settings.r_centerWindow != 0 ? SDL_WINDOWPOS_CENTERED_DISPLAY(onDisplay)
+                                                                     : SDL_WINDOWPOS_UNDEFINED_DISPLAY(onDisplay));
     for (int attempt = 0; attempt < 2 && !m_window; ++attempt) {
         Uint32 flags = SDL_WINDOW_SHOWN;
         if (m_presents) flags |= SDL_WINDOW_VULKAN;
@@ -137,10 +153,10 @@ void Window::openWindow(const RasterSettings& settings) {
 
 void Window::publishModes(const RasterSettings&) {
     std::vector<std::pair<int, int>> sizes;
-    const int count = m_sdl->getNumDisplayModes(0);
+    const int count = m_sdl->getNumDisplayModes(m_wantedDisplay);
     for (int i = 0; i < count; ++i) {
         SDL_DisplayMode mode{};
-        if (m_sdl->getDisplayMode(0, i, &mode) == 0) sizes.emplace_back(mode.w, mode.h);
+        if (m_sdl->getDisplayMode(m_wantedDisplay, i, &mode) == 0) sizes.emplace_back(mode.w, mode.h);
     }
     const auto [width, height] = desktopSize();
     const float desktopAspect = static_cast<float>(width) / static_cast<float>(height);

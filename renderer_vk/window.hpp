@@ -30,6 +30,7 @@ class Window {
     VkExtent2D drawableExtent() const;
     bool fullscreen() const { return m_fullscreen; }
     int refreshHz() const;
+    int display() const; ///< number of the one that shows most of it
     /// Returns false if SDL refuses: a restart is needed.
     bool setFullscreen(bool fullscreen);
     void minimize();
@@ -37,9 +38,11 @@ class Window {
   private:
     struct Sdl;
     void openVideo();
+    void chooseDisplay(int wanted);
     void openWindow(const RasterSettings& settings);
     void publishModes(const RasterSettings& settings);
     std::pair<int, int> desktopSize() const;
+    int m_wantedDisplay = 0;
 
     EngineServices& m_engine;
     std::unique_ptr<Sdl> m_sdl;

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "scene/texture_upload.hpp"
 
 namespace q3rt {
 
@@ -41,6 +42,9 @@ DisplayInfo FrontEnd::beginRegistration() {
     shutdownRegistration();
     m_binding.registerAll(m_engine);
     m_display = openDisplay();
+    m_display.supportsGamma = m_settings.r_ignorehwgamma == 0;
+    const bool headroom = m_display.supportsGamma && m_display.fullscreen && isRasterizer();
+    m_overbrightBits = headroom ? m_settings.r_overBrightBits : 0;
     addCommands();
 
     TextureSettings texture;
@@ -48,10 +52,13 @@ DisplayInfo FrontEnd::beginRegistration() {
     texture.roundImagesDown = m_settings.r_roundImagesDown != 0;
     texture.simpleMipMaps = m_settings.r_simpleMipMaps != 0;
     texture.colorMipLevels = m_settings.r_colorMipLevels != 0;
+    texture.overbrightBits = m_overbrightBits;
     texture.mapOverbrightBits = m_settings.r_mapOverBrightBits;
+    texture.softwareGamma = !m_display.supportsGamma;
     texture.gamma = m_settings.r_gamma;
     texture.intensity = m_settings.r_intensity;
     texture.greyscale = m_settings.r_greyscale;
+    texture.lightmapIntensity = m_settings.r_lightmap == 2;
     if (m_display.maxTextureSize > 0) texture.maxSize = m_display.maxTextureSize;
     m_textures = std::make_unique<TextureLibrary>(m_engine, texture);
 
@@ -123,6 +130,7 @@ void FrontEnd::loadWorld(std::string_view name) {
     world.subdivisions = m_settings.r_subdivisions;
     world.vertexLight = m_settings.r_vertexLight != 0;
     world.fullbright = m_settings.r_fullbright != 0;
+    world.singleShader = m_settings.r_singleShader != 0;
     m_world = q3rt::loadWorld(m_engine, name, *m_materials, world);
     m_models->addInlineModels(*m_world);
     m_entityTokenAt = 0;
@@ -194,6 +202,7 @@ void FrontEnd::renderScene(const SceneView& view) {
         throw UsageError("a scene of the world was asked for, but no map is loaded");
     const bool lit = m_settings.r_dynamiclight != 0 && m_settings.r_vertexLight != 1;
     SceneView scene = view;
+    scene.eye = m_eye;
     scene.firstEntity = m_firstEntity;
     scene.entityCount = static_cast<uint32_t>(m_frame.entities.size()) - m_firstEntity;
     scene.firstPoly = m_firstPoly;
@@ -231,7 +240,11 @@ void FrontEnd::uploadCinematic(int columns, int rows, const uint8_t* rgba, int s
     if (dirty || now.width != columns || now.height != rows) m_textures->setScratch(slot, columns, rows, rgba);
 }
 
-void FrontEnd::beginFrame(int) { m_binding.refresh(); }
+void FrontEnd::beginFrame(int stereoEye) {
+    m_binding.refresh();
+    m_eye = stereoEye == 1 ? Eye::Left : stereoEye == 2 ? Eye::Right : Eye::Both; // the engine's stereoFrame_t
+    if (registered() && m_eye != Eye::Both) m_frame.commands.emplace_back(m_eye);
+}
 
 Renderer::FrameTimes FrontEnd::endFrame() {
     FrameTimes times;
@@ -302,9 +315,13 @@ std::optional<std::string> FrontEnd::entityToken() {
 
 bool FrontEnd::inPvs(const vec3& from, const vec3& to) { return m_world && m_world->inPvs(from, to); }
 
+std::array<uint8_t, 256> FrontEnd::displayRamp() const {
+    return m_display.supportsGamma ? buildGammaTable(m_settings.r_gamma, m_overbrightBits) : buildGammaTable(1.0f, 0);
+}
+
 ViewGeometrySettings FrontEnd::viewGeometrySettings() const {
     ViewGeometrySettings result;
-    result.identityLight = kIdentityLight;
+    result.identityLight = identityLight();
     result.ambientScale = m_settings.r_ambientScale;
     result.directedScale = m_settings.r_directedScale;
     result.lodScale = m_settings.r_lodscale;

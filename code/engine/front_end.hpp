@@ -3,6 +3,7 @@
 // (textures, materials, models, world) and turns the engine's calls into FrameCommands, which the derived class draws.
 // Lists grow; nothing is dropped for being one too many.
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -80,6 +81,10 @@ class FrontEnd : public Renderer {
     virtual void onFrame(const FrameCommands& frame, FrameImage* capture) = 0;
     /// The console command of that name.
     virtual void onMinimize() {}
+    /// Lines of the console command modelist: what each r_mode is.
+    virtual std::vector<std::string> modeLines() const { return {}; }
+    /// More lines of the console command gfxinfo.
+    virtual std::vector<std::string> displayLines() const { return {}; }
     /// Everything registered is about to be destroyed; legal at any moment, also before the first registration.
     virtual void onContentDropped() {}
 
@@ -92,8 +97,13 @@ class FrontEnd : public Renderer {
     ModelLibrary& models() { return *m_models; }
     const World* world() const { return m_world.get(); }
     bool registered() const { return m_materials != nullptr; }
-    /// Effective overbright: no hardware gamma ramp is used, so it is always off.
-    static constexpr float kIdentityLight = 1.0f;
+    /// Is the world rasterised? Headroom above white, several samples a pixel and a scale are for it.
+    virtual bool isRasterizer() const { return true; }
+    /// Effective overbright of this registration. White is drawn as 1 / 2^bits, and the ramp makes it white again.
+    int overbrightBits() const { return m_overbrightBits; }
+    float identityLight() const { return 1.0f / static_cast<float>(1 << m_overbrightBits); }
+    /// From the finished picture's bytes to those that are shown, in place of a display's gamma ramp.
+    std::array<uint8_t, 256> displayRamp() const;
     ViewGeometrySettings viewGeometrySettings() const;
 
   private:
@@ -110,6 +120,7 @@ class FrontEnd : public Renderer {
     void removeCommands();
     void requestScreenshot(CaptureKind kind);
     void printShaderList();
+    void printDisplayInfo();
     void printImageList();
     void printModelList();
     void printSkinList();
@@ -124,6 +135,7 @@ class FrontEnd : public Renderer {
     FrontEndSettings m_settings;
     SettingsBinding m_binding;
     DisplayInfo m_display;
+    int m_overbrightBits = 0;
     bool m_commandsAdded = false;
     std::unique_ptr<TextureLibrary> m_textures;
     std::unique_ptr<MaterialLibrary> m_materials;
@@ -132,6 +144,7 @@ class FrontEnd : public Renderer {
     std::vector<int> m_videos; ///< cinematic handles of videoMaps
     FrameCommands m_frame;
     uint32_t m_firstEntity = 0, m_firstPoly = 0, m_firstLight = 0;
+    Eye m_eye = Eye::Both;
     U8vec4 m_color{0}; ///< the original starts with transparent black, and keeps the colour over frames
     size_t m_entityTokenAt = 0;
     std::vector<CaptureRequest> m_captures;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "base/error.hpp"
 #include "base/log.hpp"
@@ -39,11 +40,12 @@ struct FrontEndCommands {
         run([](FrontEnd& f) { f.onMinimize(); });
     }
     static void gfxInfo() {
+        run([](FrontEnd& f) { f.printDisplayInfo(); });
+    }
+    static void modeList() {
         run([](FrontEnd& f) {
-            const DisplayInfo& d = f.m_display;
-            f.m_engine.print(LogLevel::Info, formatText("%s, %s", d.rendererText.c_str(), d.versionText.c_str()));
-            f.m_engine.print(LogLevel::Info,
-                             formatText("%d x %d pixels%s", d.width, d.height, d.fullscreen ? ", full screen" : ""));
+            for (const std::string& line : f.modeLines())
+                f.m_engine.print(LogLevel::Info, line);
         });
     }
 
@@ -54,7 +56,8 @@ struct FrontEndCommands {
     static constexpr Entry kTable[] = {{"screenshot", screenshot}, {"screenshotJPEG", screenshotJpeg},
                                        {"shaderlist", shaderList}, {"imagelist", imageList},
                                        {"modellist", modelList},   {"skinlist", skinList},
-                                       {"gfxinfo", gfxInfo},       {"minimize", minimize}};
+                                       {"gfxinfo", gfxInfo},       {"minimize", minimize},
+                                       {"modelist", modeList}};
 };
 
 namespace {
@@ -195,9 +198,29 @@ void FrontEnd::writeVideo(const CaptureRequest& request, const FrameImage& image
     m_engine.writeVideoFrame(bgr);
 }
 
+void FrontEnd::printDisplayInfo() {
+    const DisplayInfo& d = m_display;
+    m_engine.print(LogLevel::Info, formatText("%s, %s", d.rendererText.c_str(), d.versionText.c_str()));
+    m_engine.print(LogLevel::Info, formatText("%d x %d pixels%s, %d Hz", d.width, d.height,
+                                              d.fullscreen ? ", full screen" : "", d.frequency));
+    m_engine.print(LogLevel::Info, formatText("colours: %s, gamma %g, %d overbright bits",
+                                              d.supportsGamma ? "ramp over the picture" : "as they are",
+                                              static_cast<double>(m_settings.r_gamma), m_overbrightBits));
+    m_engine.print(LogLevel::Info,
+                   formatText("textures: picmip %d, at most %d pixels, detail stages %s", m_settings.r_picmip,
+                              d.maxTextureSize, m_settings.r_detailtextures != 0 ? "kept" : "left out"));
+    for (const std::string& line : displayLines())
+        m_engine.print(LogLevel::Info, line);
+}
+
+/// In the order of creation, or with an argument in that of drawing.
 void FrontEnd::printShaderList() {
-    for (size_t i = 0; i < m_materials->count(); ++i) {
-        const Material& material = m_materials->get(static_cast<MaterialId>(i));
+    std::vector<MaterialId> order(m_materials->count());
+    std::iota(order.begin(), order.end(), MaterialId{0});
+    if (m_engine.commandArguments().size() > 1)
+        std::ranges::sort(order, {}, [&](MaterialId id) { return m_materials->get(id).sortRank; });
+    for (const MaterialId id : order) {
+        const Material& material = m_materials->get(id);
         m_engine.print(LogLevel::Info,
                        formatText("%zu %c sort %g %s%s", material.stages.size(), material.explicitScript ? 'E' : ' ',
                                   static_cast<double>(material.sort), material.name.c_str(),
@@ -225,6 +248,7 @@ void FrontEnd::printModelList() {
         m_engine.print(LogLevel::Info,
                        formatText("%zu: %zu levels of detail %s", i, model.lods.size(), model.name.c_str()));
     }
+    m_engine.print(LogLevel::Info, formatText("%zu models", m_models->count() - 1));
 }
 
 void FrontEnd::printSkinList() {

@@ -90,6 +90,10 @@ void Device::choosePhysical(const std::string& wanted) {
     }
     if (!found)
         throw DeviceError(formatText("no Vulkan device is called \"%s\"; there is %s", wanted.c_str(), all.c_str()));
+    m_choiceReason = !wanted.empty()       ? formatText("asked for as \"%s\"", wanted.c_str())
+                     : devices.size() == 1 ? "the only one"
+                                           : "the best: one that traces rays in hardware, any GPU, a software device";
+    if (devices.size() > 1) m_choiceReason += "; there is " + all;
     if (bestRank < 0)
         throw DeviceError(formatText("no Vulkan device will do; there is %s. Update its driver or install Mesa 24.1 "
                                      "or newer",

@@ -46,6 +46,8 @@ class Device {
     VkSurfaceKHR surface() const { return m_surface; } // null when headless
     VkPipelineCache pipelineCache() const { return m_pipelineCache; }
     const Capabilities& capabilities() const { return m_capabilities; }
+    /// Why this one of the machine's devices, for people.
+    const std::string& choiceReason() const { return m_choiceReason; }
     MemoryAllocator& memory() { return *m_memory; }
     SamplerCache& samplers() { return *m_samplers; }
 
@@ -96,6 +98,7 @@ class Device {
     VkPipelineCache m_pipelineCache = VK_NULL_HANDLE;
     VkCommandPool m_immediatePool = VK_NULL_HANDLE;
     Capabilities m_capabilities;
+    std::string m_choiceReason;
     bool m_validating = false;
     std::shared_ptr<std::vector<std::string>> m_messages = std::make_shared<std::vector<std::string>>();
     std::unique_ptr<MemoryAllocator> m_memory;

@@ -52,6 +52,11 @@ VkRenderingAttachmentInfoKHR attachmentInfo(const Attachment& attachment, VkImag
     info.loadOp = attachment.load;
     info.storeOp = attachment.store;
     info.clearValue = attachment.clear;
+    if (attachment.resolve) {
+        info.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
+        info.resolveImageView = attachment.resolve;
+        info.resolveImageLayout = layout;
+    }
     return info;
 }
 

@@ -66,7 +66,8 @@ struct Attachment {
     VkAttachmentLoadOp load = VK_ATTACHMENT_LOAD_OP_LOAD;
     VkClearValue clear{};
     VkAttachmentStoreOp store = VK_ATTACHMENT_STORE_OP_STORE;
-    bool stencil = false; // a depth attachment whose format has stencil too
+    bool stencil = false;                 // a depth attachment whose format has stencil too
+    VkImageView resolve = VK_NULL_HANDLE; // of a colour with several samples: takes their mean at the end
 };
 
 /// Begins dynamic rendering over `extent` with a full viewport (depth 0..1, y down as Vulkan has it) and scissor.

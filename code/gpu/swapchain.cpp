@@ -74,6 +74,19 @@ void Swapchain::choosePresentMode(int swapInterval) {
         }
 }
 
+const char* Swapchain::describeMode() const {
+    switch (m_presentMode) {
+    case VK_PRESENT_MODE_IMMEDIATE_KHR:
+        return "each frame at once, torn where it comes";
+    case VK_PRESENT_MODE_MAILBOX_KHR:
+        return "the newest frame at each refresh";
+    case VK_PRESENT_MODE_FIFO_RELAXED_KHR:
+        return "a frame a refresh, a late one at once";
+    default:
+        return "a frame a refresh";
+    }
+}
+
 void Swapchain::create(VkExtent2D extent) {
     m_requested = extent;
     VkSurfaceCapabilitiesKHR surface;

@@ -27,6 +27,8 @@ class Swapchain {
     VkExtent2D extent() const { return m_extent; }
     VkFormat format() const { return m_format; } // 8-bit UNORM: the engine's bytes go out as they are
     bool acquired() const { return m_acquired; }
+    /// When an image is shown, for people.
+    const char* describeMode() const;
 
   private:
     friend class FrameRing;

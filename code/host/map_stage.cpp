@@ -43,13 +43,16 @@ void MapStage::load(HeadlessEngine& engine) {
 }
 
 void MapStage::drawScene(HeadlessEngine& engine, const refdef_t& view) const {
-    engine.enter([&](const refexport_t& module) {
-        module.BeginFrame(0);
-        module.ClearScene();
-        for (const StillEntity& still : m_scene)
-            module.AddRefEntityToScene(&still.entity);
-        module.RenderScene(&view);
-    });
+    // As the engine does it: with coloured glasses one eye after the other.
+    const bool stereo = engine.cvars.value("r_anaglyphMode") != "" && engine.cvars.value("r_anaglyphMode") != "0";
+    for (int eye = stereo ? 1 : 0; eye <= (stereo ? 2 : 0); ++eye)
+        engine.enter([&](const refexport_t& module) {
+            module.BeginFrame(eye);
+            module.ClearScene();
+            for (const StillEntity& still : m_scene)
+                module.AddRefEntityToScene(&still.entity);
+            module.RenderScene(&view);
+        });
 }
 
 void presetPicture(CvarTable& cvars, const PictureSize& size, const CvarList& settings) {

@@ -199,7 +199,7 @@ void finishMaterial(MaterialDraft& draft, const CompileContext& context) {
         for (StageDraft& stage : draft.stages)
             stage.stage.fogFade = findFogFade(stage.stage);
     collapseFirstStages(draft.stages, context);
-    if (context.settings.lightmapMode == 1) showLightmapOnly(draft.stages);
+    if (context.settings.lightmapMode != 0) showLightmapOnly(draft.stages);
     const bool usesPage =
         std::any_of(draft.stages.begin(), draft.stages.end(), [](const StageDraft& s) { return s.namedLightmap; });
     for (StageDraft& stage : draft.stages)

@@ -61,11 +61,15 @@ struct SceneLight {
     bool additive = false;
 };
 
+/// What is drawn for, in a stereo frame one after the other.
+enum class Eye : uint8_t { Both, Left, Right };
+
 /// One RenderScene call with the entities, polys and lights added for it.
 struct SceneView {
     int x = 0, y = 0, width = 0, height = 0; ///< pixels, top-left origin
     float fovXDegrees = 90, fovYDegrees = 90;
     Orientation view; ///< origin = eye; axis = forward, left, up
+    Eye eye = Eye::Both;
     int timeMs = 0;
     uint32_t flags = 0;
     std::array<uint8_t, 32> areaMask{}; ///< set bit: that area is hidden
@@ -89,7 +93,8 @@ struct CinematicPicture {
     int slot = 0;
 };
 
-using FrameCommand = std::variant<Picture, CinematicPicture, SceneView>;
+/// An Eye alone: what follows is for it.
+using FrameCommand = std::variant<Picture, CinematicPicture, SceneView, Eye>;
 
 /// Everything of one frame in call order.
 struct FrameCommands {

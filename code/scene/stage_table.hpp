@@ -33,6 +33,7 @@ class StageTable {
     StageRange evaluate(MaterialId material, const StageInputs& inputs);
     const std::vector<StageState>& states() const { return m_states; }
     const TextureLibrary& textures() const { return m_textures; }
+    float identityLight() const { return m_identityLight; }
 
   private:
     const MaterialLibrary& m_materials;

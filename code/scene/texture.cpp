@@ -136,6 +136,7 @@ TextureId TextureLibrary::addLightmap(int page, const uint8_t* rgb) {
         for (int k = 0; k < 4; ++k)
             level.rgba[4 * i + static_cast<size_t>(k)] = color[k];
     }
+    if (m_settings.greyscale > 0) convertToGrey(level, m_settings.greyscale);
     texture.levels.push_back(std::move(level));
     return add(std::move(texture));
 }

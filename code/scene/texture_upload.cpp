@@ -15,15 +15,6 @@ int toPowerOfTwo(int size, bool roundDown) {
     return roundDown && above > size ? above >> 1 : above;
 }
 
-void convertToGrey(MipLevel& level, float amount) {
-    for (size_t i = 0; i + 3 < level.rgba.size(); i += 4) {
-        uint8_t* c = &level.rgba[i];
-        const float luma = std::trunc(0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]);
-        for (int k = 0; k < 3; ++k)
-            c[k] = static_cast<uint8_t>(c[k] + (luma - c[k]) * amount);
-    }
-}
-
 void applyLightScale(MipLevel& level, bool mipmapped, const TextureSettings& settings) {
     const std::array<uint8_t, 256> gamma = buildGammaTable(settings.gamma, settings.overbrightBits);
     const float intensity = std::max(1.0f, settings.intensity);
@@ -124,6 +115,15 @@ MipLevel halveImage(const MipLevel& source, bool simple) {
                 out[k] = static_cast<uint8_t>((in[k] + in[4 + k] + in[row + k] + in[row + 4 + k]) >> 2);
     }
     return result;
+}
+
+void convertToGrey(MipLevel& level, float amount) {
+    for (size_t i = 0; i + 3 < level.rgba.size(); i += 4) {
+        uint8_t* c = &level.rgba[i];
+        const float luma = std::trunc(0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]);
+        for (int k = 0; k < 3; ++k)
+            c[k] = static_cast<uint8_t>(c[k] + (luma - c[k]) * amount);
+    }
 }
 
 std::array<uint8_t, 256> buildGammaTable(float gamma, int overbrightBits) {

@@ -15,6 +15,8 @@ MipLevel resampleImage(const MipLevel& source, int width, int height);
 MipLevel halveImage(const MipLevel& source, bool simple);
 /// All levels as they are uploaded; one level if not mip-mapped.
 std::vector<MipLevel> buildTextureLevels(MipLevel image, TextureFlags flags, const TextureSettings& settings);
+/// Colours toward their luma by `amount`: r_greyscale.
+void convertToGrey(MipLevel& level, float amount);
 /// The gamma table of a device without hardware gamma.
 std::array<uint8_t, 256> buildGammaTable(float gamma, int overbrightBits);
 /// Mean of the texels, [0, 1].

@@ -18,6 +18,7 @@ namespace q3rt {
 struct WorldSettings {
     float subdivisions = 4; ///< r_subdivisions
     bool vertexLight = false, fullbright = false;
+    bool singleShader = false; ///< the default material everywhere but for skies
 };
 
 /// Level-of-detail data of a tessellated patch (row-major grid of width x height vertices from firstVertex).

@@ -34,7 +34,9 @@ int lightmapContextOf(const WorldBuild& build, const BspSurface& surface) {
 MaterialId findMaterial(const WorldBuild& build, const BspSurface& surface) {
     const std::string& name = build.world.bsp.shaders[static_cast<size_t>(surface.shader)].name;
     const MaterialId id = build.materials.find(name, lightmapContextOf(build, surface));
-    if (!build.materials.get(id).isDefault) return id;
+    const Material& material = build.materials.get(id);
+    if (build.settings.singleShader && !material.isSky) return 0;
+    if (!material.isDefault) return id;
     // The library has warned of the shader itself; this line says who wears it.
     logLineOnce(LogLevel::Developer, "%s: no usable script or image for %s; the default look is drawn",
                 build.world.name.c_str(), name.c_str());

@@ -19,6 +19,8 @@ layout(location = 3) out float outClip;
 layout(location = 4) flat out uvec2 outTextures;
 invariant gl_Position;
 
+layout(constant_id = 4) const float kGreyscale = 0.0; // of all colours, [0, 1]
+
 vec3 worldPosition() {
     vec4 p = vec4(inPosition, 1.0);
     return vec3(dot(entities[draw.entity].worldRow0, p), dot(entities[draw.entity].worldRow1, p),
@@ -73,5 +75,9 @@ void main() {
     } else if (kPass == kPassFog) {
         outColor = vec4(fogs[draw.fog].color, 1.0);
         outSt0 = fogCoordinates(draw.fog, worldPosition());
+    }
+    if (kGreyscale > 0.0) {
+        float luma = floor(dot(outColor.rgb * 255.0, vec3(0.2126, 0.7152, 0.0722)) + 0.001) / 255.0;
+        outColor.rgb = mix(outColor.rgb, vec3(luma), kGreyscale);
     }
 }

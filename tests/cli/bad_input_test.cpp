@@ -293,6 +293,11 @@ TEST(BadSetting, IsAWarningThatNamesWhatIsInForce) {
     EXPECT_NE(result.errors.find("r_gamma takes numbers from 0.5 to 3, not '9': it is 3"), std::string::npos)
         << result.errors;
     EXPECT_NE(result.errors.find("no setting of this renderer is called r_gama"), std::string::npos) << result.errors;
+    // What only the renderer knows is its own warning, which needs no --verbose.
+    const ProgramResult traced = runQ3rt({"view", "--basepath", (in / "good").string(), "--map", kBadMap, "--renderer",
+                                          "rt", "--size", "64x48", "--set", "rt_preset=nice", "--out", out.string()});
+    EXPECT_EQ(traced.exitCode, 0) << traced.errors;
+    EXPECT_NE(traced.errors.find("rt_preset nice: "), std::string::npos) << traced.errors;
 }
 
 TEST(BadContent, IsAWarningAndThePictureIsDrawn) {

@@ -10,6 +10,7 @@
 #include "gpu/device.hpp"
 #include "raster/test_services.hpp"
 #include "renderer_vk/vk_renderer.hpp"
+#include "scene/texture_upload.hpp"
 #include "support/game_data.hpp"
 
 namespace q3rt {
@@ -52,14 +53,16 @@ SceneView spawnView(const World& world, size_t number) {
     return view;
 }
 
-/// One frame: the view, and a picture of the console font over it. Rows top first, RGB.
-std::vector<uint8_t> drawFrame(TestRenderer& renderer, test::TestServices& services, const SceneView& view,
-                               int shader) {
-    renderer.beginFrame(0);
-    renderer.clearScene();
-    renderer.renderScene(view);
-    renderer.setColor(std::nullopt);
-    renderer.drawPicture(8, 8, 64, 64, 0, 0, 1, 1, shader);
+/// One frame: the view, and a picture of the console font over it; for each eye, or both at once. Rows top first, RGB.
+std::vector<uint8_t> drawFrame(TestRenderer& renderer, test::TestServices& services, const SceneView& view, int shader,
+                               std::initializer_list<int> eyes = {0}) {
+    for (const int eye : eyes) {
+        renderer.beginFrame(eye);
+        renderer.clearScene();
+        renderer.renderScene(view);
+        renderer.setColor(std::nullopt);
+        renderer.drawPicture(8, 8, 64, 64, 0, 0, 1, 1, shader);
+    }
     renderer.takeVideoFrame(kWidth, kHeight, nullptr, nullptr, false);
     renderer.endFrame();
     std::vector<uint8_t> rgb;
@@ -89,6 +92,7 @@ TEST(RasterDraw, MapIsDrawnWithoutValidationMessages) {
     services.setCvar("r_customwidth", std::to_string(kWidth));
     services.setCvar("r_customheight", std::to_string(kHeight));
     services.setCvar("r_picmip", "0");
+    services.setCvar("r_fullscreen", "0");
     services.setCvar("q3rt_wantStats", "1");
     TestRenderer renderer(services);
     try {
@@ -113,11 +117,31 @@ TEST(RasterDraw, MapIsDrawnWithoutValidationMessages) {
     const std::vector<uint8_t> first = drawFrame(renderer, services, view, shader);
     const std::vector<uint8_t> second = drawFrame(renderer, services, view, shader);
     drawFrame(renderer, services, view, shader); // times are known when their frame's slot comes round
-    EXPECT_EQ(renderer.pipelineCount(), warmed) << "a pipeline was made during play";
     keepImage("spawn0", first);
-    services.setCvar("r_showtris", "1");
-    EXPECT_NE(first, drawFrame(renderer, services, view, shader)) << "edges are not drawn";
-    services.setCvar("r_showtris", "0");
+    for (const char* setting : {"r_showtris", "r_shownormals"}) {
+        services.setCvar(setting, "1");
+        EXPECT_NE(first, drawFrame(renderer, services, view, shader)) << setting << " shows nothing";
+        services.setCvar(setting, "0");
+    }
+    services.setCvar("r_flares", "1");
+    services.setCvar("r_speeds", "6");
+    drawFrame(renderer, services, view, shader);
+    EXPECT_EQ(services.printed.back().find("flares: "), 0u) << services.printed.back();
+    services.setCvar("r_flares", "0");
+    services.setCvar("r_speeds", "0");
+    EXPECT_EQ(renderer.pipelineCount(), warmed) << "a pipeline was made during play";
+    services.setCvar("r_gamma", "1.5");
+    std::vector<uint8_t> brighter = first;
+    const auto ramp = buildGammaTable(1.5f, 0);
+    for (uint8_t& value : brighter)
+        value = ramp[value];
+    EXPECT_EQ(brighter, drawFrame(renderer, services, view, shader)) << "the ramp is a table over the picture";
+    services.setCvar("r_gamma", "1");
+    services.setCvar("r_anaglyphMode", "1");
+    EXPECT_NE(first, drawFrame(renderer, services, view, shader, {1, 2})) << "both eyes see the same";
+    services.setCvar("r_stereoSeparation", "0");
+    EXPECT_EQ(first, drawFrame(renderer, services, view, shader, {1, 2})) << "eyes at one place, through glasses";
+    services.setCvar("r_anaglyphMode", "0");
     size_t bright = 0;
     for (const uint8_t value : first)
         bright += value > 16 ? 1u : 0u;
@@ -136,6 +160,51 @@ TEST(RasterDraw, MapIsDrawnWithoutValidationMessages) {
     renderer.shutdownRegistration();
     for (const std::string& message : renderer.messages())
         ADD_FAILURE() << message;
+}
+
+/// Mean difference of two pictures, bytes.
+double meanDifference(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
+    double sum = 0;
+    for (size_t i = 0; i < a.size(); ++i)
+        sum += std::abs(a[i] - b[i]);
+    return sum / static_cast<double>(a.size());
+}
+
+TEST(RasterDraw, SamplesAndScaleGiveTheSameViewWithoutValidationMessages) {
+    Q3RT_OPEN_GAME_DATA_OR_SKIP(files);
+    setenv("Q3RT_VALIDATION", "1", 1);
+    std::vector<uint8_t> plain;
+    for (const auto& [samples, scale] : {std::pair("0", "100"), {"4", "100"}, {"0", "200"}, {"4", "50"}}) {
+        test::TestServices services(*files);
+        for (const auto& [name, value] : {std::pair("r_mode", "-1"),
+                                          {"r_customwidth", "320"},
+                                          {"r_customheight", "240"},
+                                          {"r_fullscreen", "0"},
+                                          {"r_ext_multisample", samples},
+                                          {"r_renderScale", scale},
+                                          {"r_clear", "1"}})
+            services.setCvar(name, value);
+        TestRenderer renderer(services);
+        try {
+            renderer.beginRegistration();
+        } catch (const DeviceError& error) {
+            GTEST_SKIP() << "no Vulkan device: " << error.what();
+        }
+        renderer.loadWorld("maps/oa_dm1.bsp");
+        const int shader = renderer.registerShader("gfx/2d/bigchars", false);
+        renderer.endRegistration();
+        const SceneView view = spawnView(*renderer.map(), 0);
+        const std::vector<uint8_t> picture = drawFrame(renderer, services, view, shader);
+        keepImage(std::string("samples") + samples + "scale" + scale, picture);
+        if (plain.empty()) plain = picture;
+        constexpr double kSmoothedEdges = 3; // bytes, mean: what filters change of a picture with fine textures
+        EXPECT_LT(meanDifference(plain, picture), kSmoothedEdges) << samples << " samples, " << scale << " %";
+        EXPECT_EQ(plain == picture, samples == std::string("0") && scale == std::string("100"));
+        services.commands.at("gfxinfo")();
+        EXPECT_NE(services.printed.back().find("shown: "), std::string::npos);
+        for (const std::string& message : renderer.messages())
+            ADD_FAILURE() << message;
+    }
 }
 
 } // namespace

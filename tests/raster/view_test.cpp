@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <random>
 
 #include "renderer_vk/draw_list.hpp"
+#include "renderer_vk/flares.hpp"
 #include "renderer_vk/portal.hpp"
 #include "renderer_vk/shadow_volume.hpp"
 #include "renderer_vk/sky.hpp"
@@ -141,6 +143,101 @@ TEST(RasterPortal, HiddenAndFarSurfacesGiveNoView) {
     EXPECT_FALSE(visible(vec3(-200, 0, 0), vec3(1, 0, 0), 256, false)) << "behind the eye";
     EXPECT_FALSE(visible(vec3(300, 0, 0), vec3(-1, 0, 0), 256, false)) << "beyond its range";
     EXPECT_TRUE(visible(vec3(300, 0, 0), vec3(-1, 0, 0), 0, true)) << "mirrors have no range";
+}
+
+TEST(RasterPortal, MirrorInAMirrorIsNoMirrorImage) {
+    SceneView scene;
+    scene.view.origin = vec3(50, 10, 20);
+    const SceneEntity near = portalEntity(vec3(200, 0, 0), vec3(200, 0, 0));
+    const SceneEntity far = portalEntity(vec3(-100, 0, 0), vec3(-100, 0, 0));
+    const Plane behind{vec3(1, 0, 0), -100};
+    const auto once = makePortalView(viewAt(scene), kWall, kWall, std::span(&near, 1));
+    ASSERT_TRUE(once.has_value());
+    const auto twice = makePortalView(*once, behind, behind, std::span(&far, 1));
+    ASSERT_TRUE(twice.has_value());
+    EXPECT_EQ(twice->portalDepth, 2);
+    EXPECT_FALSE(twice->mirrored);
+    EXPECT_NEAR(glm::distance(twice->eye.origin, vec3(-550, 10, 20)), 0.0f, kTolerance);
+    EXPECT_NEAR(glm::distance(twice->eye.axis[0], vec3(1, 0, 0)), 0.0f, kTolerance);
+}
+
+TEST(RasterStereo, EyesAgreeAtTheProjectionsDistance) {
+    SceneView scenes[2];
+    RasterView views[2];
+    for (size_t i = 0; i < 2; ++i) {
+        scenes[i].eye = i == 0 ? Eye::Left : Eye::Right;
+        views[i] = makeMainView(scenes[i], 4.0f);
+        separateEye(views[i], 64, 32); // two units to either side
+        updateProjection(views[i]);
+    }
+    const auto screenX = [&](size_t eye, const mat4& clipFromWorld, const vec3& point) {
+        const vec4 clip = clipFromWorld * vec4(point, 1);
+        EXPECT_GT(clip.w, 0) << eye;
+        return clip.x / clip.w;
+    };
+    const auto apart = [&](const vec3& point) {
+        return screenX(0, views[0].clipFromWorld, point) - screenX(1, views[1].clipFromWorld, point);
+    };
+    EXPECT_NEAR(apart(vec3(64, 10, 5)), 0, kTolerance);
+    EXPECT_GT(apart(vec3(32, 10, 5)), 0.01f) << "near things stand further right for the left eye";
+    EXPECT_LT(apart(vec3(640, 10, 5)), -0.01f);
+    // Weapons: no difference at the near plane, and hardly any a little further.
+    const vec3 held(12, 2, -3);
+    EXPECT_LT(std::abs(screenX(0, views[0].clipFromWorldNear, held) - screenX(1, views[1].clipFromWorldNear, held)),
+              std::abs(apart(held)));
+    for (const RasterView& view : views) {
+        const vec4 edge = inverse(view.clipFromWorld) * vec4(1, 0, 0.5f, 1); // on the right side of the picture
+        const vec3 point = vec3(edge) / edge.w;
+        for (const Plane& plane : view.frustum)
+            EXPECT_GT(glm::dot(plane.normal, point) - plane.distance, -0.01f)
+                << "the frustum's sides are the picture's";
+    }
+}
+
+TEST(RasterFlares, FadeInAndOutAfterTheAnswers) {
+    FlareFades fades;
+    const FlareKey key{7, 1, false};
+    uint64_t frame = 0;
+    int timeMs = 1000;
+    const auto next = [&](std::optional<bool> answer) {
+        fades.beginFrame(++frame);
+        if (answer) fades.answer(key, frame - 1, *answer);
+        return fades.strength(key, timeMs += 20, 7);
+    };
+    EXPECT_EQ(next(std::nullopt), 0) << "not seen yet";
+    EXPECT_NEAR(next(true), 0.007f, 1e-4f) << "fades in from a millisecond before";
+    EXPECT_NEAR(next(std::nullopt), 0.147f, 1e-4f);
+    for (int i = 0; i < 10; ++i)
+        next(std::nullopt);
+    EXPECT_EQ(next(true), 1);
+    EXPECT_NEAR(next(false), 0.993f, 1e-4f);
+    EXPECT_NEAR(next(false), 0.853f, 1e-4f);
+    ++frame; // a frame without it
+    fades.beginFrame(++frame);
+    EXPECT_EQ(fades.size(), 0u);
+    fades.strength(key, timeMs, 7);
+    fades.answer(key, frame - 1, true);
+    EXPECT_EQ(fades.strength(key, timeMs, 7), 0) << "an answer to an earlier flare";
+}
+
+TEST(RasterFlares, StandWhereTheirLampDoes) {
+    SceneView scene;
+    scene.width = 640;
+    scene.height = 480;
+    scene.fovXDegrees = scene.fovYDegrees = 90;
+    const RasterView view = viewAt(scene);
+    const auto place = placeFlare(view, vec3(100, 50, 50)); // a quarter of the picture left and up of its middle
+    ASSERT_TRUE(place.has_value());
+    EXPECT_EQ(place->x, 160);
+    EXPECT_EQ(place->y, 360);
+    EXPECT_NEAR(place->depthQu, 100, kTolerance);
+    EXPECT_FALSE(placeFlare(view, vec3(100, 101, 0)).has_value());
+    EXPECT_FALSE(placeFlare(view, vec3(-100, 0, 0)).has_value());
+    const FlareLook near = flareLook(64, 640, 40, 150), far = flareLook(1000, 640, 40, 150);
+    EXPECT_NEAR(near.halfSizePixels, 120, kTolerance);
+    EXPECT_NEAR(far.halfSizePixels, 45.12f, 1e-3f);
+    EXPECT_GT(near.intensity, far.intensity);
+    EXPECT_NEAR(flareLook(64, 640, 40, 0).intensity, near.intensity, 1e-6f) << "0 stands for the default";
 }
 
 TEST(RasterLights, SurfacesKeepLightsThatDoNotReachTheirLeafAnyMore) {

@@ -39,7 +39,7 @@ class HeadlessEngine {
 
     CvarTable cvars;
     int clockMs = 0;           ///< what Milliseconds answers
-    bool showsMessages = true; ///< false: only the module's errors reach the log
+    bool showsMessages = true; ///< false: only errors, and warnings of settings, reach the log
 
     /// Throws UsageError if the file is no renderer module.
     void loadModule(const std::filesystem::path& path);

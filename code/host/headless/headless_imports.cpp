@@ -28,17 +28,24 @@ char* copyText(const std::string& text) {
 
 } // namespace
 
+/// Such a message names the setting first: whoever set it wants to know.
+bool HeadlessImports::concernsSetting(std::string_view message) {
+    return theEngine->cvars.find(message.substr(0, message.find_first_of(": "))) != nullptr;
+}
+
 // Every function counts itself first, while it owns nothing, because the injected error jumps from there.
 void HeadlessImports::bind(HeadlessEngine* engine) { theEngine = engine; }
 
 void HeadlessImports::print(int level, const char* format, ...) {
     theEngine->countImport();
-    if (!theEngine->showsMessages && level != Q3_PRINT_ERROR) return;
     va_list arguments;
     va_start(arguments, format);
     char text[4096];
     std::vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    const bool shown =
+        theEngine->showsMessages || level == Q3_PRINT_ERROR || (level == Q3_PRINT_WARNING && concernsSetting(text));
+    if (!shown) return;
     const size_t length = std::strlen(text);
     if (length > 0 && text[length - 1] == '\n') text[length - 1] = 0;
     const LogLevel levels[] = {LogLevel::Info, LogLevel::Developer, LogLevel::Warning, LogLevel::Error};

@@ -1,6 +1,8 @@
 #pragma once
 // The 40 C functions that HeadlessEngine offers to a module.
 
+#include <string_view>
+
 #include "abi/ref_tables.h"
 
 namespace q3rt {
@@ -14,6 +16,7 @@ struct HeadlessImports {
 
   private:
     static void print(int level, const char* format, ...);
+    static bool concernsSetting(std::string_view message);
     static void fail(int code, const char* format, ...);
     static void addCvarImports(refimport_t& t);
     static void addFileImports(refimport_t& t);
