@@ -51,6 +51,23 @@ namespace q3rt::shaders {
       VERBATIM)
     list(APPEND headers ${array})
   endforeach()
+  set_property(TARGET ${ARG_TARGET} APPEND PROPERTY Q3RT_SHADER_ARRAYS ${headers})
   target_sources(${ARG_TARGET} PRIVATE ${headers})
   target_include_directories(${ARG_TARGET} PUBLIC ${folder})
+endfunction()
+
+# q3rt_hash_shaders(TARGET t NAME n MATCH regex): target n makes generated/n.hpp with kShaderHash, which changes whenever
+# one of t's shaders whose name matches does. Whoever includes it depends on n.
+function(q3rt_hash_shaders)
+  cmake_parse_arguments(ARG "" "TARGET;NAME;MATCH" "" ${ARGN})
+  get_target_property(arrays ${ARG_TARGET} Q3RT_SHADER_ARRAYS)
+  list(FILTER arrays INCLUDE REGEX "${ARG_MATCH}")
+  set(header ${CMAKE_BINARY_DIR}/generated/${ARG_NAME}.hpp)
+  add_custom_command(
+    OUTPUT ${header}
+    COMMAND ${CMAKE_COMMAND} "-DFILES=${arrays}" -DHEADER=${header} -P ${CMAKE_SOURCE_DIR}/cmake/hash_files.cmake
+    DEPENDS ${arrays} ${CMAKE_SOURCE_DIR}/cmake/hash_files.cmake
+    COMMENT "Hash ${ARG_NAME}"
+    VERBATIM)
+  add_custom_target(${ARG_NAME} DEPENDS ${header})
 endfunction()

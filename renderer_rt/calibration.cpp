@@ -9,6 +9,7 @@
 #include "base/measured_rounds.hpp"
 #include "gpu/device.hpp"
 #include "renderer_rt/trace_renderer.hpp"
+#include "tracing_code.hpp"
 
 namespace q3rt {
 
@@ -22,8 +23,8 @@ constexpr double kRadians = 3.14159265358979323846 / 180;
 } // namespace
 
 std::string calibrationKey(const Capabilities& can) {
-    return formatText("rt_backend %s, %s %s, shaders %016llx", can.deviceName.c_str(), can.driverName.c_str(),
-                      can.driverInfo.c_str(), static_cast<unsigned long long>(StagePipelines::hashOfCode()));
+    return formatText("rt_backend %s, %s %s, shaders %s", can.deviceName.c_str(), can.driverName.c_str(),
+                      can.driverInfo.c_str(), kShaderHash);
 }
 
 SceneView stillOf(const World& world, VkExtent2D extent) {

@@ -19,7 +19,6 @@ void TraceRenderer::drawWorldView(FrameGraph& graph, FrameTargets& targets, cons
         raster().addView(graph, targets, frame, scene, drawListSettings(), "compare raster");
     if (view.top) addAcceleration(graph, resources, work);
     if (m_settings.rt_illumination == kPlainIllumination) {
-        m_pipelines->requirePlain(context().device());
         addPlain(graph, resources, work);
         addOutput(graph, resources, targets, work, describeOutput(buffers, view));
         return;

@@ -1,6 +1,6 @@
 // Settings of the ray tracer. Only those that do something are declared.
 SETTING(rt_printPerfStats, Int, 0, 0, 2, A, "", "1 prints times and structures once a second; 2 shows them on the picture")
-SETTING(rt_illumination, Int, 1, 0, 2, A, "", "0 shows plain textures, 1 lights them by rays, 2 shows white surfaces in the light of one ray a pixel: what tracing costs by itself")
+SETTING(rt_illumination, Int, 1, 0, 2, A, "", "0 shows plain textures, 1 lights them by rays, 2 shows white surfaces in the light of one ray a pixel: what tracing costs by itself; 2 from vid_restart or the next map on")
 SETTING(rt_cullLights, Int, 2, 0, 2, A, "", "0 tries all lights, 1 those potentially visible from the point's cluster, 2 leaves out those too that can't shine on it")
 SETTING(rt_numRandomDL, Int, 1, 0, 64, A, "lights", "lights chosen at random for each pixel; 0 all of them")
 SETTING(rt_lightCandidates, Int, 4, 1, 64, A, "lights", "weighed for each choice; drawn by what they give in the cluster's mean")

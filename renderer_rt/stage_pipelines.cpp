@@ -37,17 +37,6 @@ size_t indexOf(TraceStage stage) { return static_cast<size_t>(stage); }
 
 } // namespace
 
-uint64_t StagePipelines::hashOfCode() {
-    uint64_t hash = 14695981039346656037u; // FNV-1a (Fowler, Noll, Vo), over words
-    for (const TraceStage stage : {TraceStage::Primary, TraceStage::Direct}) {
-        const StageCode code = codeOf(stage);
-        for (const Spirv& words : {code.rayGeneration, code.query, code.compute})
-            for (const uint32_t word : words)
-                hash = (hash ^ word) * 1099511628211u;
-    }
-    return hash;
-}
-
 StagePipelines::StagePipelines(Device& device, Backend backend, VkDescriptorSetLayout textures)
     : m_backend(backend) {
     m_interface.sets = {textures};
@@ -120,6 +109,9 @@ void StagePipelines::warm(VkCommandBuffer commands, const StageInput& input) con
     dispatch(commands, TraceStage::Primary, input);
     vkCmdPipelineBarrier2KHR(commands, &dependency);
     dispatch(commands, TraceStage::Direct, input);
+    if (!m_hasPlain) return;
+    vkCmdPipelineBarrier2KHR(commands, &dependency);
+    dispatch(commands, TraceStage::Plain, input);
 }
 
 const Access& StagePipelines::bufferRead() const {

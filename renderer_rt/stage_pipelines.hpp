@@ -27,13 +27,12 @@ struct StageInput {
 
 class StagePipelines {
   public:
-    /// Of all back ends' stages: what was measured with other shaders is out of date.
-    static uint64_t hashOfCode();
     StagePipelines(Device& device, Backend backend, VkDescriptorSetLayout textures);
-    /// The plain stage is made when it is first wanted.
+    /// Few want the plain stage: it is made by this alone, at loading.
     void requirePlain(Device& device);
+    bool hasPlain() const { return m_hasPlain; }
     void dispatch(VkCommandBuffer commands, TraceStage stage, const StageInput& input) const;
-    /// Runs primary and direct once, so that the driver compiles them now.
+    /// Runs each stage once, so that the driver compiles them now.
     void warm(VkCommandBuffer commands, const StageInput& input) const;
     const DescriptorLayout& structureLayout() const { return m_structureLayout; }
     Backend backend() const { return m_backend; }

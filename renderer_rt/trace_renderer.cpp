@@ -69,6 +69,7 @@ void TraceRenderer::onGpuReady() {
     if (!m_scene->hasWorld()) return;
     m_pace.applyPreset(m_settings);
     if (!m_calibrationKey.empty()) calibrate();
+    if (m_settings.rt_illumination == kPlainIllumination) m_pipelines->requirePlain(context().device());
     warmPipelines();
     // Whatever was drawn while the map was loaded, the first picture of the world is the same.
     m_pictureNumber = 0;
@@ -91,6 +92,10 @@ void TraceRenderer::onGpuFrameBegin(const FrameCommands&) {
     for (const TimerRow& row : timers.results())
         finishedMs += row.ms;
     m_pace.apply(m_settings, context().ring().frameNumber(), timers.resultsFrame(), finishedMs);
+    if (m_settings.rt_illumination == kPlainIllumination && !m_pipelines->hasPlain()) {
+        logLineOnce(LogLevel::Warning, "rt_illumination 2: seen from vid_restart or the next map on");
+        m_settings.rt_illumination = 1;
+    }
     // Its picture is a function of the frame alone.
     if (m_settings.rt_illumination == kPlainIllumination)
         applySettings("rt_accumulate 0 rt_autoExposure 0 rt_compare 0 rt_denoiser 0 rt_scale 100 rt_taa 0", m_settings);

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::string_view kFirstLine = "q3rt choices 1";
 constexpr std::string_view kLastLine = "end";
+constexpr ptrdiff_t kMostKept = 16;
 
 /// Tabs and line ends part the fields.
 std::string oneField(std::string text) {
@@ -55,6 +56,8 @@ bool keepMeasuredChoice(const std::filesystem::path& file, const MeasuredChoice&
     if (file.empty()) return false;
     std::vector<MeasuredChoice> choices = readMeasuredChoices(file);
     std::erase_if(choices, [&](const MeasuredChoice& other) { return other.key == choice.key; });
+    // Other builds of the program measure for themselves; what is oldest is asked for least.
+    if (std::ssize(choices) >= kMostKept) choices.erase(choices.begin(), choices.end() - (kMostKept - 1));
     choices.push_back({oneField(choice.key), oneField(choice.choice), oneField(choice.reason)});
     std::error_code error;
     std::filesystem::create_directories(file.parent_path(), error);

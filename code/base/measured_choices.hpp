@@ -21,7 +21,8 @@ std::filesystem::path measuredChoicesFile();
 
 std::vector<MeasuredChoice> readMeasuredChoices(const std::filesystem::path& file);
 std::optional<MeasuredChoice> findMeasuredChoice(const std::filesystem::path& file, std::string_view key);
-/// Adds or replaces one. The file changes at once or not at all; false, with a log line, if it can't be written.
+/// Adds or replaces one; of very many the oldest go. The file changes at once or not at all; false, with a log line, if
+/// it can't be written.
 bool keepMeasuredChoice(const std::filesystem::path& file, const MeasuredChoice& choice);
 
 } // namespace q3rt

@@ -63,14 +63,19 @@ Device::~Device() { destroyAll(); }
 void Device::create(const DeviceOptions& options) {
     m_validating = options.validation || environment("Q3RT_VALIDATION") == "1";
     m_instance = createInstance({m_validating, options.instanceExtensions, m_messages.get()});
-    if (options.createSurface) {
-        m_surface = options.createSurface(m_instance.handle);
-        if (!m_surface) throw DeviceError("the window system made no Vulkan surface for the window: run headless");
-    }
+    m_createSurface = options.createSurface;
+    if (m_createSurface) remakeSurface();
     choosePhysical(options.wanted.empty() ? environment("Q3RT_DEVICE") : options.wanted);
     chooseQueueFamily();
     createDevice(options);
     logLine(LogLevel::Developer, "Vulkan device: %s", describeCapabilities(m_capabilities).c_str());
+}
+
+void Device::remakeSurface() {
+    if (m_surface) vkDestroySurfaceKHR(m_instance.handle, m_surface, nullptr);
+    m_surface = VK_NULL_HANDLE;
+    m_surface = m_createSurface(m_instance.handle);
+    if (!m_surface) throw DeviceError("the window system made no Vulkan surface for the window: run headless");
 }
 
 void Device::choosePhysical(const std::string& wanted) {

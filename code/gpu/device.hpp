@@ -44,6 +44,8 @@ class Device {
     VkQueue queue() const { return m_queue; }
     uint32_t queueFamily() const { return m_queueFamily; }
     VkSurfaceKHR surface() const { return m_surface; } // null when headless
+    /// The window system took the surface away: makes another one for the same window. No swapchain may be left.
+    void remakeSurface();
     VkPipelineCache pipelineCache() const { return m_pipelineCache; }
     const Capabilities& capabilities() const { return m_capabilities; }
     /// Why this one of the machine's devices, for people.
@@ -91,6 +93,7 @@ class Device {
 
     Instance m_instance;
     VkSurfaceKHR m_surface = VK_NULL_HANDLE;
+    std::function<VkSurfaceKHR(VkInstance)> m_createSurface;
     VkPhysicalDevice m_physical = VK_NULL_HANDLE;
     VkDevice m_device = VK_NULL_HANDLE;
     VkQueue m_queue = VK_NULL_HANDLE;

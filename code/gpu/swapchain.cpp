@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/log.hpp"
 #include "gpu/device.hpp"
 
 namespace q3rt {
@@ -87,17 +88,37 @@ const char* Swapchain::describeMode() const {
     }
 }
 
+/// False if the window has no surface any more.
+bool Swapchain::recoverSurface() {
+    m_device.waitIdle();
+    destroyImages();
+    vkDestroySwapchainKHR(m_device.handle(), m_handle, nullptr);
+    m_handle = VK_NULL_HANDLE;
+    m_stale = true;
+    try {
+        m_device.remakeSurface();
+    } catch (const DeviceError& error) {
+        logLineOnce(LogLevel::Warning, "%s; no frame is shown until vid_restart", error.what());
+        return false;
+    }
+    m_lost = false;
+    return true;
+}
+
 void Swapchain::create(VkExtent2D extent) {
     m_requested = extent;
     VkSurfaceCapabilitiesKHR surface;
-    vkCheck(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(m_device.physical(), m_device.surface(), &surface),
-            "vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
+    const VkResult result =
+        vkGetPhysicalDeviceSurfaceCapabilitiesKHR(m_device.physical(), m_device.surface(), &surface);
+    m_stale = true;
+    m_lost = result == VK_ERROR_SURFACE_LOST_KHR;
+    if (m_lost) return;
+    vkCheck(result, "vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
     // 0xffffffff: the surface takes the size that the swapchain has.
     if (surface.currentExtent.width != UINT32_MAX) extent = surface.currentExtent;
     extent.width = std::clamp(extent.width, surface.minImageExtent.width, surface.maxImageExtent.width);
     extent.height = std::clamp(extent.height, surface.minImageExtent.height, surface.maxImageExtent.height);
     m_extent = extent;
-    m_stale = true;
     if (extent.width == 0 || extent.height == 0) return; // minimised
 
     VkSwapchainCreateInfoKHR create{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
@@ -119,7 +140,10 @@ void Swapchain::create(VkExtent2D extent) {
     create.clipped = VK_TRUE;
     create.oldSwapchain = m_handle;
     VkSwapchainKHR made = VK_NULL_HANDLE;
-    vkCheck(vkCreateSwapchainKHR(m_device.handle(), &create, nullptr, &made), "vkCreateSwapchainKHR");
+    const VkResult creation = vkCreateSwapchainKHR(m_device.handle(), &create, nullptr, &made);
+    m_lost = creation == VK_ERROR_SURFACE_LOST_KHR;
+    if (m_lost) return;
+    vkCheck(creation, "vkCreateSwapchainKHR");
     if (m_handle) {
         m_device.waitIdle();
         destroyImages();
@@ -161,13 +185,17 @@ void Swapchain::destroyImages() {
 bool Swapchain::acquire(VkExtent2D extent) {
     m_acquired = false;
     if (extent.width != m_requested.width || extent.height != m_requested.height) m_stale = true;
-    // Twice: a swapchain can go out of date between being made and being asked.
-    for (int attempt = 0; attempt < 2; ++attempt) {
+    // Again: a swapchain can go out of date between being made and being asked, and be without a surface before.
+    for (int attempt = 0; attempt < 3; ++attempt) {
+        if (m_lost && !recoverSurface()) return false;
         if (m_stale) create(extent);
+        if (m_lost) continue;
         if (m_stale) return false;
         m_readyIndex = (m_readyIndex + 1) % kReadySemaphores;
         const VkResult result =
             vkAcquireNextImageKHR(m_device.handle(), m_handle, UINT64_MAX, imageReady(), VK_NULL_HANDLE, &m_current);
+        m_lost = result == VK_ERROR_SURFACE_LOST_KHR;
+        if (m_lost) continue;
         if (result == VK_ERROR_OUT_OF_DATE_KHR) {
             m_stale = true;
             continue;
@@ -190,7 +218,9 @@ void Swapchain::present() {
     info.pSwapchains = &m_handle;
     info.pImageIndices = &m_current;
     const VkResult result = vkQueuePresentKHR(m_device.queue(), &info);
-    if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR)
+    if (result == VK_ERROR_SURFACE_LOST_KHR)
+        m_lost = true;
+    else if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR)
         m_stale = true;
     else
         vkCheck(result, "vkQueuePresentKHR");

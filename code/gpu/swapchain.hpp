@@ -27,12 +27,15 @@ class Swapchain {
     VkExtent2D extent() const { return m_extent; }
     VkFormat format() const { return m_format; } // 8-bit UNORM: the engine's bytes go out as they are
     bool acquired() const { return m_acquired; }
+    /// The window system took the surface: another one is made at the next acquire().
+    void loseSurface() { m_lost = true; }
     /// When an image is shown, for people.
     const char* describeMode() const;
 
   private:
     friend class FrameRing;
     void create(VkExtent2D extent);
+    bool recoverSurface();
     void fetchImages();
     void destroyImages();
     void chooseFormat();
@@ -56,6 +59,7 @@ class Swapchain {
     uint32_t m_readyIndex = 0;
     uint32_t m_current = 0;
     bool m_acquired = false;
+    bool m_lost = false;  // so is its surface
     bool m_stale = false; // out of date or suboptimal: made anew at the next acquire()
 };
 

@@ -14,6 +14,7 @@
 #include "host/engine_process.hpp"
 #include "host/output_file.hpp"
 #include "scene/world.hpp"
+#include "tracing_code.hpp"
 
 namespace q3rt {
 
@@ -154,8 +155,11 @@ void checkDevices(std::vector<Check>& checks) {
 }
 
 void checkChoices(std::vector<Check>& checks) {
+    // Those of other builds are of no use to this one.
     for (const MeasuredChoice& choice : readMeasuredChoices(measuredChoicesFile()))
-        checks.push_back({"measured", Finding::Good, choice.choice + " (" + choice.reason + ") for " + choice.key, ""});
+        if (choice.key.ends_with(kShaderHash))
+            checks.push_back(
+                {"measured", Finding::Good, choice.choice + " (" + choice.reason + ") for " + choice.key, ""});
 }
 
 Check checkDisplay() {

@@ -1,10 +1,14 @@
 #include "host/engine_process.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <poll.h>
+#include <set>
+#include <sstream>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -184,6 +188,19 @@ std::string lastError(const fs::path& console) {
     return found;
 }
 
+/// What the renderer said of settings that the user gave: a line that begins with such a name.
+void repeatWarnings(const fs::path& console, const CvarList& settings) {
+    const std::vector<std::byte> bytes = readFileBytes(console);
+    std::istringstream text(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    std::set<std::string> repeated;
+    for (std::string line; std::getline(text, line);) {
+        if (line.starts_with('\x1b')) line.erase(0, line.find('m') + 1); // a colour of the terminal
+        const std::string name = line.substr(0, line.find_first_of(": "));
+        const bool given = std::ranges::any_of(settings, [&](const auto& setting) { return setting.first == name; });
+        if (given && repeated.insert(line).second) std::fprintf(stderr, "q3rt: %s\n", line.c_str());
+    }
+}
+
 } // namespace
 
 void runEngine(const EngineRun& run, const std::function<void(const WatchedFrame&)>& onFrame) {
@@ -200,6 +217,7 @@ void runEngine(const EngineRun& run, const std::function<void(const WatchedFrame
     theirs.reset();
     if (run.watched) receiveFrames(ours.number, onFrame);
     const int status = child.wait();
+    if (run.headless) repeatWarnings(console, run.cvars);
     const std::string error = run.headless ? lastError(console) : std::string();
     if (error.starts_with(kRecordingEnded)) throw UsageError(error.substr(std::strlen(kRecordingEnded)));
     if (!error.empty() || status != 0)

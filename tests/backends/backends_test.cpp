@@ -60,13 +60,14 @@ std::optional<Pictures> drawWith(const char* backend, Pk3FileSource& files, cons
         engine.clockMs = kClockMs;
         presetPicture(engine.cvars, kSize, kSettings);
         engine.cvars.preset("rt_backend", backend);
+        engine.cvars.preset("rt_illumination", "2"); // made at loading
         engine.loadModule(Q3RT_BUILD_DIR "/renderer_rt_x86_64.so");
         MapStage stage(files, view.map);
         stage.load(engine);
         Pictures pictures;
-        pictures.lit = draw(engine, stage, view);
-        engine.cvars.preset("rt_illumination", "2");
         pictures.plain = draw(engine, stage, view);
+        engine.cvars.preset("rt_illumination", "1");
+        pictures.lit = draw(engine, stage, view);
         return pictures;
     } catch (const std::exception& error) {
         reason = error.what();

@@ -21,6 +21,12 @@ TEST(MeasuredChoices, AreKeptReplacedAndForgottenWhenDamaged) {
     EXPECT_EQ(findMeasuredChoice(file, "device A")->choice, "pipeline");
     EXPECT_EQ(findMeasuredChoice(file, "device B")->reason, "tab and line");
     EXPECT_FALSE(findMeasuredChoice(file, "device C"));
+    const auto few = file.string() + ".few";
+    for (int i = 0; i < 40; ++i)
+        ASSERT_TRUE(keepMeasuredChoice(few, {"build " + std::to_string(i), "query", "1 ms"}));
+    EXPECT_EQ(readMeasuredChoices(few).size(), 16u);
+    EXPECT_TRUE(findMeasuredChoice(few, "build 39"));
+    EXPECT_FALSE(findMeasuredChoice(few, "build 0"));
     // Cut at any byte before its last line it counts as absent.
     std::string text;
     std::getline(std::ifstream(file), text, '\0');

@@ -25,7 +25,7 @@ class SwapchainTest : public GpuTest {
     }
 };
 
-TEST_F(SwapchainTest, FramesArePresentedAndTheWindowMayChangeSize) {
+TEST_F(SwapchainTest, FramesArePresentedThroughNewSizesAndALostSurface) {
     FrameRing ring(device());
     FrameExecutor executor(device());
     for (const int interval : {1, 0, -1}) {
@@ -34,6 +34,7 @@ TEST_F(SwapchainTest, FramesArePresentedAndTheWindowMayChangeSize) {
             const VkExtent2D size{64 + 16 * (frame / 3), 48};
             OffscreenTarget target(device(), {32, 32});
             ring.begin();
+            if (frame == 4) swapchain.loseSurface();
             ASSERT_TRUE(swapchain.acquire(size));
             FrameGraph graph;
             ImageId picture = graph.importImage("picture", target.image());

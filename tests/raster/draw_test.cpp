@@ -4,36 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <fstream>
 
-#include "formats/image.hpp"
-#include "gpu/device.hpp"
-#include "raster/test_services.hpp"
-#include "renderer_vk/vk_renderer.hpp"
+#include "raster/raster_rig.hpp"
 #include "scene/texture_upload.hpp"
 #include "support/game_data.hpp"
 
-namespace q3rt {
+namespace q3rt::test {
 namespace {
-
-constexpr int kWidth = 320, kHeight = 240;
-
-/// The rasteriser with its messages in reach.
-class TestRenderer final : public GpuRenderer {
-  public:
-    using GpuRenderer::GpuRenderer;
-    std::vector<std::string> messages() { return *context().device().validationMessages(); }
-    const World* map() const { return world(); }
-    size_t pipelineCount() { return raster().pipelineCount(); }
-
-  private:
-    void drawWorldView(FrameGraph& graph, FrameTargets& targets, const FrameCommands& frame,
-                       const SceneView& scene) override {
-        raster().addView(graph, targets, frame, scene, drawListSettings(), "world view");
-    }
-    const char* backendName() const override { return "raster"; }
-    const char* rendererName() const override { return "test"; }
-};
 
 SceneView spawnView(const World& world, size_t number) {
     size_t found = 0;
@@ -53,46 +30,12 @@ SceneView spawnView(const World& world, size_t number) {
     return view;
 }
 
-/// One frame: the view, and a picture of the console font over it; for each eye, or both at once. Rows top first, RGB.
-std::vector<uint8_t> drawFrame(TestRenderer& renderer, test::TestServices& services, const SceneView& view, int shader,
-                               std::initializer_list<int> eyes = {0}) {
-    for (const int eye : eyes) {
-        renderer.beginFrame(eye);
-        renderer.clearScene();
-        renderer.renderScene(view);
-        renderer.setColor(std::nullopt);
-        renderer.drawPicture(8, 8, 64, 64, 0, 0, 1, 1, shader);
-    }
-    renderer.takeVideoFrame(kWidth, kHeight, nullptr, nullptr, false);
-    renderer.endFrame();
-    std::vector<uint8_t> rgb;
-    for (int y = kHeight - 1; y >= 0; --y) {
-        for (int x = 0; x < kWidth; ++x) {
-            const size_t at = static_cast<size_t>(y * kWidth + x) * 3;
-            rgb.insert(rgb.end(), {services.video[at + 2], services.video[at + 1], services.video[at]});
-        }
-    }
-    return rgb;
-}
-
-/// For looking at: writes a PNG if Q3RT_TEST_IMAGES names a folder.
-void keepImage(const std::string& name, const std::vector<uint8_t>& rgb) {
-    const char* folder = std::getenv("Q3RT_TEST_IMAGES");
-    if (!folder) return;
-    const auto png = encodePng(kWidth, kHeight, 3, rgb);
-    std::ofstream(std::string(folder) + "/" + name + ".png", std::ios::binary)
-        .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
-}
-
 TEST(RasterDraw, MapIsDrawnWithoutValidationMessages) {
     Q3RT_OPEN_GAME_DATA_OR_SKIP(files);
     setenv("Q3RT_VALIDATION", "1", 1);
-    test::TestServices services(*files);
-    services.setCvar("r_mode", "-1");
-    services.setCvar("r_customwidth", std::to_string(kWidth));
-    services.setCvar("r_customheight", std::to_string(kHeight));
+    TestServices services(*files);
+    setPictureSize(services);
     services.setCvar("r_picmip", "0");
-    services.setCvar("r_fullscreen", "0");
     services.setCvar("q3rt_wantStats", "1");
     TestRenderer renderer(services);
     try {
@@ -175,15 +118,10 @@ TEST(RasterDraw, SamplesAndScaleGiveTheSameViewWithoutValidationMessages) {
     setenv("Q3RT_VALIDATION", "1", 1);
     std::vector<uint8_t> plain;
     for (const auto& [samples, scale] : {std::pair("0", "100"), {"4", "100"}, {"0", "200"}, {"4", "50"}}) {
-        test::TestServices services(*files);
-        for (const auto& [name, value] : {std::pair("r_mode", "-1"),
-                                          {"r_customwidth", "320"},
-                                          {"r_customheight", "240"},
-                                          {"r_fullscreen", "0"},
-                                          {"r_ext_multisample", samples},
-                                          {"r_renderScale", scale},
-                                          {"r_clear", "1"}})
-            services.setCvar(name, value);
+        TestServices services(*files);
+        setPictureSize(services);
+        services.setCvar("r_ext_multisample", samples);
+        services.setCvar("r_renderScale", scale);
         TestRenderer renderer(services);
         try {
             renderer.beginRegistration();
@@ -208,4 +146,4 @@ TEST(RasterDraw, SamplesAndScaleGiveTheSameViewWithoutValidationMessages) {
 }
 
 } // namespace
-} // namespace q3rt
+} // namespace q3rt::test
