@@ -1,6 +1,7 @@
 #pragma once
 // What one frame sends to the GPU, gathered on the CPU. No Vulkan here.
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -71,7 +72,7 @@ StageState colorStage(const vec4& color);
 /// Of a frame's views together, for r_speeds.
 struct ViewCounts {
     size_t leafs = 0, surfaces = 0, vertices = 0, litSurfaces = 0;
-    size_t modelsIn = 0, modelsAcross = 0, modelsOut = 0;
+    std::array<size_t, 3> models{}; ///< by CullResult
     size_t flares = 0, flaresFading = 0;
     int cluster = -1; ///< of the last
     float farQu = 0;

@@ -53,12 +53,8 @@ void DrawListBuilder::countView(const ViewWork& work) {
         counts.vertices += vertices;
         if (item.lit) ++counts.litSurfaces;
     }
-    for (size_t i = 1; i < work.entityCull.size(); ++i) {
-        const CullResult cull = work.entityCull[i];
-        ++(cull == CullResult::Inside    ? counts.modelsIn
-           : cull == CullResult::Clipped ? counts.modelsAcross
-                                         : counts.modelsOut);
-    }
+    for (size_t i = 1; i < work.entityCull.size(); ++i)
+        ++counts.models[static_cast<size_t>(work.entityCull[i])];
     counts.flares += work.flares.size();
     counts.flaresFading = m_fades.size();
 }
@@ -87,8 +83,8 @@ std::string DrawListBuilder::describeCounts(int kind, const FrameDrawData& data)
                           data.batches.size(), c.surfaces, c.leafs, c.vertices, triangles, allTriangles,
                           static_cast<double>(texels) * 1e-6);
     case 2:
-        return formatText("models: %zu in the view, %zu across its edges, %zu outside", c.modelsIn, c.modelsAcross,
-                          c.modelsOut);
+        return formatText("models: %zu in the view, %zu across its edges, %zu outside", c.models[0], c.models[1],
+                          c.models[2]);
     case 3:
         return formatText("cluster %d", c.cluster);
     case 4:

@@ -19,9 +19,12 @@ bool startsPass(const FrameCommand& command) {
 /// The eyes' pictures share one depth, which goes from the one to the other.
 void GpuRenderer::changeEye(FrameGraph& graph, Eye next, FrameTargets& targets, std::optional<FrameTargets>& leftEye) {
     if (!m_anaglyph->enabled()) return;
-    if (next == Eye::Left && !leftEye) leftEye = m_anaglyph->leftEye(graph, targets);
-    if (leftEye)
-        (next == Eye::Left ? leftEye->depth : targets.depth) = next == Eye::Left ? targets.depth : leftEye->depth;
+    if (next == Eye::Left) {
+        if (!leftEye) leftEye = m_anaglyph->leftEye(graph, targets);
+        leftEye->depth = targets.depth;
+    } else if (leftEye) {
+        targets.depth = leftEye->depth;
+    }
     m_eye = next;
 }
 
