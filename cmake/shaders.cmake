@@ -56,8 +56,8 @@ namespace q3rt::shaders {
   target_include_directories(${ARG_TARGET} PUBLIC ${folder})
 endfunction()
 
-# q3rt_hash_shaders(TARGET t NAME n MATCH regex): target n makes generated/n.hpp with kShaderHash, which changes whenever
-# one of t's shaders whose name matches does. Whoever includes it depends on n.
+# q3rt_hash_shaders(TARGET t NAME n MATCH regex): target n makes generated/n.hpp with kShaderHash, which changes with
+# each of t's shaders whose name matches. Whoever includes it depends on n.
 function(q3rt_hash_shaders)
   cmake_parse_arguments(ARG "" "TARGET;NAME;MATCH" "" ${ARGN})
   get_target_property(arrays ${ARG_TARGET} Q3RT_SHADER_ARRAYS)

@@ -30,6 +30,35 @@ SceneView spawnView(const World& world, size_t number) {
     return view;
 }
 
+/// Those that act at once, on a view whose picture is `first`; they are taken back.
+void checkSettingsOfPlay(TestRenderer& renderer, TestServices& services, const SceneView& view, int shader,
+                         const std::vector<uint8_t>& first) {
+    for (const char* setting : {"r_showtris", "r_shownormals"}) {
+        services.setCvar(setting, "1");
+        EXPECT_NE(first, drawFrame(renderer, services, view, shader)) << setting << " shows nothing";
+        services.setCvar(setting, "0");
+    }
+    services.setCvar("r_flares", "1");
+    services.setCvar("r_speeds", "6");
+    drawFrame(renderer, services, view, shader);
+    EXPECT_EQ(services.printed.back().find("flares: "), 0u) << services.printed.back();
+    services.setCvar("r_flares", "0");
+    services.setCvar("r_speeds", "0");
+    services.setCvar("r_gamma", "1.5");
+    std::vector<uint8_t> brighter = first;
+    const auto ramp = buildGammaTable(1.5f, 0);
+    for (uint8_t& value : brighter)
+        value = ramp[value];
+    EXPECT_EQ(brighter, drawFrame(renderer, services, view, shader)) << "the ramp is a table over the picture";
+    services.setCvar("r_gamma", "1");
+    services.setCvar("r_anaglyphMode", "1");
+    EXPECT_NE(first, drawFrame(renderer, services, view, shader, {1, 2})) << "both eyes see the same";
+    services.setCvar("r_stereoSeparation", "0");
+    EXPECT_EQ(first, drawFrame(renderer, services, view, shader, {1, 2})) << "eyes at one place, through glasses";
+    services.setCvar("r_anaglyphMode", "0");
+    services.setCvar("r_stereoSeparation", "64");
+}
+
 TEST(RasterDraw, MapIsDrawnWithoutValidationMessages) {
     Q3RT_OPEN_GAME_DATA_OR_SKIP(files);
     setenv("Q3RT_VALIDATION", "1", 1);
@@ -61,30 +90,8 @@ TEST(RasterDraw, MapIsDrawnWithoutValidationMessages) {
     const std::vector<uint8_t> second = drawFrame(renderer, services, view, shader);
     drawFrame(renderer, services, view, shader); // times are known when their frame's slot comes round
     keepImage("spawn0", first);
-    for (const char* setting : {"r_showtris", "r_shownormals"}) {
-        services.setCvar(setting, "1");
-        EXPECT_NE(first, drawFrame(renderer, services, view, shader)) << setting << " shows nothing";
-        services.setCvar(setting, "0");
-    }
-    services.setCvar("r_flares", "1");
-    services.setCvar("r_speeds", "6");
-    drawFrame(renderer, services, view, shader);
-    EXPECT_EQ(services.printed.back().find("flares: "), 0u) << services.printed.back();
-    services.setCvar("r_flares", "0");
-    services.setCvar("r_speeds", "0");
+    checkSettingsOfPlay(renderer, services, view, shader, first);
     EXPECT_EQ(renderer.pipelineCount(), warmed) << "a pipeline was made during play";
-    services.setCvar("r_gamma", "1.5");
-    std::vector<uint8_t> brighter = first;
-    const auto ramp = buildGammaTable(1.5f, 0);
-    for (uint8_t& value : brighter)
-        value = ramp[value];
-    EXPECT_EQ(brighter, drawFrame(renderer, services, view, shader)) << "the ramp is a table over the picture";
-    services.setCvar("r_gamma", "1");
-    services.setCvar("r_anaglyphMode", "1");
-    EXPECT_NE(first, drawFrame(renderer, services, view, shader, {1, 2})) << "both eyes see the same";
-    services.setCvar("r_stereoSeparation", "0");
-    EXPECT_EQ(first, drawFrame(renderer, services, view, shader, {1, 2})) << "eyes at one place, through glasses";
-    services.setCvar("r_anaglyphMode", "0");
     size_t bright = 0;
     for (const uint8_t value : first)
         bright += value > 16 ? 1u : 0u;
