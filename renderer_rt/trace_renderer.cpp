@@ -159,6 +159,8 @@ std::string TraceRenderer::extraStats() const {
                            (flags & kFrameSkySurfaces) != 0);
     }
     const ReportNumbers& report = m_report->latest();
+    if (m_lastBuffers)
+        text += formatText(",\"history\":%s", m_lastBuffers->guides || m_lastBuffers->exposure ? "true" : "false");
     if (m_lastBuffers && m_lastBuffers->sums)
         text += formatText(",\"samples\":%u", m_lastBuffers->sums->sampleNumber + 1);
     if (report.hasError)

@@ -12,9 +12,9 @@
 #include "host/evaluation.hpp"
 #include "host/file_bytes.hpp"
 #include "host/trade_front.hpp"
-#include "host/trade_measure.hpp"
 #include "host/trade_plot.hpp"
 #include "host/trade_presets.hpp"
+#include "host/trade_sweep.hpp"
 
 namespace q3rt {
 namespace {
@@ -29,7 +29,9 @@ struct TradeArguments {
     std::vector<std::string> axes;
     TradePlan plan;
     int pictures = 0; ///< 0: by the number of views
-    bool smoke = false, json = false, verbose = false;
+    size_t pointCount = kStandardPointCount;
+    TradeClock clock = TradeClock::Wall;
+    bool json = false, verbose = false;
     GameChoice game;
 };
 
@@ -72,8 +74,7 @@ std::vector<TradePoint> listPoints(const TradeArguments& a, const TradeSession& 
     std::vector<TradeAxis> axes;
     for (const std::string& text : a.axes)
         axes.push_back(parseAxis(text));
-    if (axes.empty())
-        return listStandardPoints(a.smoke ? kSmokePointCount : kStandardPointCount, a.size, a.fixed, isDeclared);
+    if (axes.empty()) return listStandardPoints(a.pointCount, a.size, a.fixed, isDeclared);
     for (const TradeAxis& axis : axes)
         if (!isPointAxis(axis.name) && !isDeclared(axis.name))
             throw UsageError("--axis " + axis.name + ": the renderer " + a.renderer + " has no such setting");
@@ -150,41 +151,6 @@ void evaluate(const TradeArguments& a) {
     runEvaluation(options);
 }
 
-/// Points grouped by what a new start costs: first those that need the same one as the references.
-std::vector<TradePoint> orderByStart(std::vector<TradePoint> points, const TradeSession& session) {
-    const auto startOf = [&](const TradePoint& point) {
-        std::vector<std::string> start = {formatText("%08d %08d", point.size.width, point.size.height)};
-        for (const auto& [name, value] : point.cvars)
-            if (session.isLatched(name)) start.push_back(name + " " + value);
-        return start;
-    };
-    std::stable_sort(points.begin(), points.end(),
-                     [&](const TradePoint& a, const TradePoint& b) { return startOf(a) < startOf(b); });
-    return points;
-}
-
-void measureMissing(TradeSession& session, TradeMeter& meter, TradeFile& file, const std::vector<TradePoint>& shard) {
-    std::vector<TradePoint> missing;
-    for (const TradePoint& point : orderByStart(shard, session))
-        if (!file.find(meter.keyOf(point), session.device())) missing.push_back(point);
-    if (missing.size() < shard.size())
-        std::fprintf(stderr, "%zu of %zu points are measured already\n", shard.size() - missing.size(), shard.size());
-    std::unique_ptr<Progress> progress;
-    const std::string command = readCommandLine();
-    size_t done = 0;
-    size_t frameCount = 0;
-    for (const TradePoint& point : missing)
-        frameCount += static_cast<size_t>(meter.framesOfPoint(point));
-    for (const TradePoint& point : missing) {
-        meter.prepareReferences(point.size);
-        if (!progress) progress = std::make_unique<Progress>("frame", frameCount);
-        TradeResult result =
-            meter.measure(point, [&](int count) { progress->advance(done += static_cast<size_t>(count)); });
-        result.command = command;
-        file.append(result);
-    }
-}
-
 std::string makeTitle(const TradeSource& source, const std::vector<TradeResult>& results, const std::string& device) {
     const size_t views = source.viewNames().size();
     std::string title = formatText("%s, %zu view%s", source.name().c_str(), views, views == 1 ? "" : "s");
@@ -198,28 +164,30 @@ std::string makeTitle(const TradeSource& source, const std::vector<TradeResult>&
 
 void report(const TradeArguments& a, const std::string& title, const std::vector<TradePoint>& points,
             std::vector<TradeResult> results) {
-    std::stable_sort(results.begin(), results.end(),
-                     [](const TradeResult& x, const TradeResult& y) { return x.wallMs.median < y.wallMs.median; });
+    const auto isFaster = [&](const TradeResult& x, const TradeResult& y) {
+        return x.times(a.clock).median < y.times(a.clock).median;
+    };
+    std::stable_sort(results.begin(), results.end(), isFaster);
     std::vector<std::string> labels;
     for (const TradeResult& result : results)
         labels.push_back(describePoint(result.point, points));
     if (!a.svg.empty()) {
-        const std::string svg = drawTradePlot(title, results, labels);
+        const std::string svg = drawTradePlot(title, results, labels, a.clock);
         writeFileBytes(a.svg, std::as_bytes(std::span(svg)));
     }
     if (!a.presets.empty()) {
-        const std::string text = formatPresets(results, title, readCommandLine());
+        const std::string text = formatPresets(results, a.clock, title, readCommandLine());
         writeFileBytes(a.presets, std::as_bytes(std::span(text)));
     }
     if (!a.json) {
-        std::printf("%s\n%s", title.c_str(), formatTradeTable(results, labels).c_str());
+        std::printf("%s\n%s", title.c_str(), formatTradeTable(results, labels, a.clock).c_str());
         return;
     }
-    const std::vector<size_t> front = findFront(costsOf(results));
+    const std::vector<size_t> front = findFront(costsOf(results, a.clock));
     for (size_t i = 0; i < results.size(); ++i) {
         const bool onFront = std::find(front.begin(), front.end(), i) != front.end();
         std::printf("{\"key\":\"%s\",\"ms\":%.6g,\"ssim\":%.6g,\"front\":%s}\n", results[i].key.c_str(),
-                    results[i].wallMs.median, results[i].ssim.value, onFront ? "true" : "false");
+                    results[i].times(a.clock).median, results[i].ssim.value, onFront ? "true" : "false");
     }
 }
 
@@ -235,7 +203,7 @@ void runTrade(TradeArguments a) {
     a.plan.reference = chooseReference(a, session, points);
     TradeMeter meter(session, *source, a.plan);
     const std::string device = session.device();
-    measureMissing(session, meter, file, takeShard(points, shard));
+    measureMissing(session, meter, file, takeShard(points, shard), readCommandLine());
     std::vector<TradeResult> results;
     for (const TradePoint& point : points)
         if (const TradeResult* result = file.find(meter.keyOf(point), device)) results.push_back(*result);
@@ -249,7 +217,11 @@ void runTrade(TradeArguments a) {
 }
 
 void addSweepOptions(CLI::App& command, TradeArguments& a) {
-    command.add_flag("--smoke", a.smoke, "10 points instead of 24: the most telling ones");
+    command.add_option("--points", a.pointCount, "The first N of the standard sweep's points, the telling ones first")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command.add_flag_callback(
+        "--smoke", [&a] { a.pointCount = kSmokePointCount; }, "10 points instead of 24: the most telling ones");
     command
         .add_option("--axis", a.axes,
                     "CVAR=V1,V2,..., size=160x120,320x240 or frames=1,4 (averaged): sweep every combination of these "
@@ -262,16 +234,40 @@ void addSweepOptions(CLI::App& command, TradeArguments& a) {
         ->type_name("I/N")
         ->check(checkedBy(parseShard))
         ->capture_default_str();
-    command.add_option("--warmup", a.plan.warmup, "Frames drawn before a view's measured ones")
+    command
+        .add_option("--warmup", a.plan.warmup,
+                    "Frames drawn before a view's measured ones, if the settings remember earlier frames")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
-    command.add_option("--count", a.plan.frames, "Timed frames a view")
+    command.add_option("--count", a.plan.frames, "Timed frames a view, at most")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
+    command
+        .add_option("--seconds-per-point", a.plan.secondsPerPoint,
+                    "No more timed frames after so long, but 3 a view; 0: no limit")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command
+        .add_option("--awake", a.plan.awakeSeconds,
+                    "Seconds of drawing before a view's frames are timed: a GPU's clock sleeps while pictures are "
+                    "compared")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    const std::map<std::string, TradeClock> clocks = {{"wall", TradeClock::Wall}, {"device", TradeClock::Device}};
+    command
+        .add_option("--clock", a.clock,
+                    "The time that the front, the plot and presets are about: wall, or device: the sum of its passes")
+        ->transform(CLI::CheckedTransformer(clocks))
+        ->type_name("wall|device");
     command.add_option("--pictures", a.pictures, "Compared pictures a view (default: 1, of a single view 4)")
         ->check(CLI::PositiveNumber);
-    command.add_option("--reference-frames", a.plan.referenceFrames, "Frames that the reference averages")
+    command.add_option("--reference-frames", a.plan.referenceFrames, "Frames that the reference averages, at most")
         ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command
+        .add_option("--reference-error", a.plan.referenceError,
+                    "A reference needs no more frames when it is so near to the truth by its own word: 1 - SSIM")
+        ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     command
         .add_option_function<std::vector<std::string>>(

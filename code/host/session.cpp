@@ -190,20 +190,24 @@ Progress::~Progress() {
 }
 
 void Progress::advance(size_t done) {
+    if (done == 0) return throwIfInterrupted();
+    const bool known = m_total >= done && m_total > 0;
+    const std::string at = m_what + (known ? formatText(" %zu of %zu", done, m_total) : formatText(" %zu", done));
+    advance(at, known ? static_cast<double>(done) / static_cast<double>(m_total) : 0);
+}
+
+void Progress::advance(const std::string& at, double share) {
     throwIfInterrupted();
     using namespace std::chrono;
     const auto now = steady_clock::now();
     const auto interval = m_terminal ? milliseconds(200) : seconds(5);
-    if (done == 0 || (now - m_last < interval && (done != m_total || !m_shown))) return;
+    const bool end = share >= 1;
+    if (now - m_last < interval && (!end || m_shown)) return;
     m_last = now;
     m_shown = true;
     const double elapsed = duration<double>(now - m_start).count();
-    if (m_total >= done && m_total > 0)
-        std::fprintf(stderr, "%s%s %zu of %zu, %.0f s left%s", m_terminal ? "\r" : "", m_what.c_str(), done, m_total,
-                     elapsed / static_cast<double>(done) * static_cast<double>(m_total - done),
-                     m_terminal ? "   " : "\n");
-    else
-        std::fprintf(stderr, "%s%s %zu%s", m_terminal ? "\r" : "", m_what.c_str(), done, m_terminal ? "   " : "\n");
+    const std::string left = share > 0 ? formatText(", %.0f s left", elapsed / share * (1 - share)) : "";
+    std::fprintf(stderr, "%s%s%s%s", m_terminal ? "\r" : "", at.c_str(), left.c_str(), m_terminal ? "   " : "\n");
 }
 
 TimeSummary summarizeTimes(std::vector<double> ms) {

@@ -64,6 +64,8 @@ class Progress {
     Progress(std::string what, size_t total);
     ~Progress();
     void advance(size_t done);
+    /// Of work whose steps differ in length: `at` names the step, `share` of the whole is done, 0 to 1.
+    void advance(const std::string& at, double share);
 
   private:
     std::string m_what;

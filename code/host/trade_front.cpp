@@ -9,7 +9,7 @@
 namespace q3rt {
 namespace {
 
-constexpr size_t kColumnCount = 11, kRaysColumn = 9;
+constexpr size_t kColumnCount = 12, kDeviceColumn = 5, kRaysColumn = 10;
 using Row = std::array<std::string, kColumnCount>;
 
 /// 0.912 +-0.004
@@ -28,17 +28,26 @@ std::string figureText(const TradeResult& result, const char* name) {
 
 Row makeRow(const TradeResult& result, size_t number, bool onFront, const std::string& label) {
     const TradeTimes& t = result.wallMs;
-    return {formatText("%zu", number),
-            onFront ? "*" : "",
-            formatText("%.2f", t.median),
-            formatText("%.2f-%.2f", t.q1, t.q3),
-            formatText("%.2f", t.p99),
-            estimateText(result.ssim, 4),
-            estimateText(result.flip, 4),
-            estimateText(result.psnr, 2),
-            estimateText(result.relmse, 4),
-            figureText(result, "rays"),
-            label};
+    return {formatText("%zu", number),    onFront ? "*" : "",
+            formatText("%.2f", t.median), formatText("%.2f-%.2f", t.q1, t.q3),
+            formatText("%.2f", t.p99),    result.gpuMs ? formatText("%.2f", result.gpuMs->median) : "",
+            estimateText(result.ssim, 4), estimateText(result.flip, 4),
+            estimateText(result.psnr, 2), estimateText(result.relmse, 4),
+            figureText(result, "rays"),   label};
+}
+
+std::string describeReferences(std::span<const TradeResult> results) {
+    double worst = -1, nearest = INFINITY;
+    int frames = 0;
+    for (const TradeResult& result : results) {
+        worst = std::max(worst, result.referenceError.value_or(-1));
+        nearest = std::min(nearest, 1.0 - result.ssim.value);
+        frames = std::max(frames, result.referenceFrames);
+    }
+    if (worst < 0 || !std::isfinite(nearest)) return "";
+    return formatText("references: means of up to %d frames, by their own word 1 - SSIM %.5f or less from the truth; "
+                      "the nearest setting is %.5f from them\n",
+                      frames, worst, nearest);
 }
 
 } // namespace
@@ -56,24 +65,29 @@ std::vector<size_t> findFront(std::span<const TradeCost> costs) {
     return front;
 }
 
-std::vector<TradeCost> costsOf(std::span<const TradeResult> results) {
+std::vector<TradeCost> costsOf(std::span<const TradeResult> results, TradeClock clock) {
     std::vector<TradeCost> costs;
     for (const TradeResult& result : results)
-        costs.push_back({result.wallMs.median, 1.0 - result.ssim.value});
+        costs.push_back({result.times(clock).median, 1.0 - result.ssim.value});
     return costs;
 }
 
-std::string formatTradeTable(std::span<const TradeResult> results, std::span<const std::string> labels) {
+std::string formatTradeTable(std::span<const TradeResult> results, std::span<const std::string> labels,
+                             TradeClock clock) {
     std::vector<bool> onFront(results.size());
-    for (const size_t i : findFront(costsOf(results)))
+    for (const size_t i : findFront(costsOf(results, clock)))
         onFront[i] = true;
-    std::vector<Row> rows = {{"#", "", "ms", "quartiles", "p99", "SSIM", "FLIP", "PSNR dB", "relMSE", "rays", ""}};
+    std::vector<Row> rows = {
+        {"#", "", "ms", "quartiles", "p99", "device ms", "SSIM", "FLIP", "PSNR dB", "relMSE", "rays", ""}};
     for (size_t i = 0; i < results.size(); ++i)
         rows.push_back(makeRow(results[i], i + 1, onFront[i], labels[i]));
     std::array<size_t, kColumnCount> widths{};
     const bool knowsRays = std::any_of(results.begin(), results.end(),
                                        [](const TradeResult& result) { return result.figures.contains("rays"); });
     if (!knowsRays) rows[0][kRaysColumn].clear();
+    const bool knowsDevice =
+        std::any_of(results.begin(), results.end(), [](const TradeResult& result) { return result.gpuMs.has_value(); });
+    if (!knowsDevice) rows[0][kDeviceColumn].clear();
     for (const Row& row : rows)
         for (size_t c = 0; c < kColumnCount; ++c)
             widths[c] = std::max(widths[c], row[c].size());
@@ -86,7 +100,9 @@ std::string formatTradeTable(std::span<const TradeResult> results, std::span<con
         line.erase(line.find_last_not_of(' ') + 1);
         text += line + "\n";
     }
-    return text + "* on the front: no other setting is both faster and nearer to the reference\n";
+    text += formatText("* on the front: no other setting is both faster%s and nearer to the reference\n",
+                       clock == TradeClock::Device ? " on the device" : "");
+    return text + describeReferences(results);
 }
 
 } // namespace q3rt

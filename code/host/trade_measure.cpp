@@ -1,17 +1,33 @@
 #include "host/trade_measure.hpp"
 
+#include <algorithm>
+#include <chrono>
+
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
 #include "host/engine_process.hpp"
-#include "host/trade_reference.hpp"
+#include "host/interrupt.hpp"
 #include "metrics/image_metrics.hpp"
 #include "metrics/statistics.hpp"
 
 namespace q3rt {
 namespace {
 
+using SteadyClock = std::chrono::steady_clock;
+
 constexpr const char* kAccumulate = "rt_accumulate";
+/// What a module calls the device's time of all its passes.
+constexpr const char* kDeviceTime = "gpu_ms";
+/// Frames until a frame's time is that of one among others: two are under way, and after a picture was fetched none is.
+constexpr int kSettle = 2;
+constexpr int kLeastTimed = 3; ///< of a view, however long they take
+/// Frames from which a reference's word about itself is believed: it comes from the spread of its samples.
+constexpr int kLeastReference = 64;
+
+double secondsSince(SteadyClock::time_point start) {
+    return std::chrono::duration<double>(SteadyClock::now() - start).count();
+}
 
 MetricImage toMetricImage(const HostFrame& frame) {
     return metricImageFromBytes(frame.width, frame.height, 3, frame.rgb);
@@ -36,7 +52,16 @@ class FigureList {
         for (const auto& [name, ms] : groups)
             m_groups[name].push_back(ms);
     }
-    std::map<std::string, double> figures() const { return mediansOf(m_figures); }
+    std::map<std::string, double> figures() const {
+        std::map<std::string, double> medians = mediansOf(m_figures);
+        medians.erase(kDeviceTime);
+        return medians;
+    }
+    std::optional<TradeTimes> deviceTimes() const {
+        const auto found = m_figures.find(kDeviceTime);
+        if (found == m_figures.end() || computeQuantile(found->second, 1) <= 0) return std::nullopt;
+        return summarizeTrade(found->second);
+    }
     std::map<std::string, double> passes() const { return mediansOf(m_passes); }
     std::map<std::string, TradeTimes> groups() const {
         std::map<std::string, TradeTimes> times;
@@ -84,22 +109,112 @@ void storeErrors(const std::vector<TradeErrors>& samples, TradeResult& result) {
     result.relmse = estimate(&TradeErrors::relmse);
 }
 
+/// What the last view was compared with.
+void storeReference(int frames, std::optional<double> error, TradeResult& result) {
+    TradeResult::View& view = result.views.back();
+    view.referenceFrames = frames;
+    view.referenceError = error;
+    result.referenceFrames = std::max(result.referenceFrames, frames);
+    if (error) result.referenceError = std::max(result.referenceError.value_or(0), *error);
+}
+
 } // namespace
+
+/// Draws one view of the point that is in force, and keeps the times that count.
+class TradeMeter::ViewTimer {
+  public:
+    ViewTimer(TradeMeter& meter, const TradePoint& point, size_t view, FigureList& figures)
+        : m_meter(meter)
+        , m_plan(meter.m_plan)
+        , m_point(point)
+        , m_view(view)
+        , m_figures(figures)
+        , m_start(SteadyClock::now()) {}
+
+    /// Of a view that stands still the later half is timed too: every setting's memory is under way by then.
+    void warmUp(int frames) {
+        const bool timed = m_meter.m_source.approachIsView() && m_point.frames == 1 && m_plan.awakeSeconds <= 0;
+        const int first = timed ? std::max(kSettle, frames / 2) : frames;
+        m_meter.m_session.approach(m_view, std::min(first, frames));
+        for (int i = first; i < frames && wantsMore(); ++i)
+            timeFrame();
+    }
+    /// They are compared when the times are known: the device does not wait meanwhile.
+    std::vector<HostFrame> takePictures() {
+        std::vector<HostFrame> pictures;
+        double ms = 0;
+        for (int i = 0; i < m_plan.pictures; ++i)
+            pictures.push_back(*m_meter.draw(m_point, m_view, true, ms));
+        return pictures;
+    }
+    void takeTimes() {
+        if (!wantsMore()) return;
+        for (int i = 0; i < kSettle || secondsSince(m_start) < m_plan.awakeSeconds; ++i)
+            m_meter.m_session.draw(m_view, false);
+        while (wantsMore())
+            timeFrame();
+    }
+    const std::vector<double>& wallMs() const { return m_wallMs; }
+
+  private:
+    bool wantsMore() const {
+        const auto count = static_cast<int>(m_wallMs.size());
+        if (count >= m_plan.frames) return false;
+        const double seconds = m_plan.secondsPerPoint / static_cast<double>(m_meter.viewCount());
+        return seconds <= 0 || count < kLeastTimed || secondsSince(m_start) < seconds;
+    }
+    void timeFrame() {
+        m_meter.draw(m_point, m_view, false, m_wallMs.emplace_back());
+        m_figures.addFrame(m_meter.m_session.stats());
+        throwIfInterrupted();
+    }
+
+    TradeMeter& m_meter;
+    const TradePlan& m_plan;
+    const TradePoint& m_point;
+    size_t m_view;
+    FigureList& m_figures;
+    SteadyClock::time_point m_start;
+    std::vector<double> m_wallMs;
+};
 
 TradeMeter::TradeMeter(TradeSession& session, const TradeSource& source, TradePlan plan)
     : m_session(session)
     , m_source(source)
     , m_plan(std::move(plan)) {}
 
-int TradeMeter::framesOfPoint(const TradePoint& point) const {
-    return static_cast<int>(m_source.viewNames().size()) *
-           (m_plan.warmup + (m_plan.pictures + m_plan.frames) * point.frames);
+bool TradeMeter::remembersFrames() const {
+    const auto stats = nlohmann::json::parse(m_session.stats(), nullptr, false);
+    return !stats.is_object() || stats.value("history", true);
+}
+
+double TradeMeter::timeFrame() {
+    const auto start = SteadyClock::now();
+    m_session.draw(0, true);
+    return secondsSince(start);
+}
+
+double TradeMeter::foretell(const TradePoint& point) {
+    m_session.apply(point);
+    const double seconds = timeFrame() * point.frames;
+    const auto views = static_cast<double>(viewCount());
+    const double fixed = seconds * (warmupOf() + m_plan.pictures + kSettle) + m_plan.awakeSeconds;
+    const double least = fixed + seconds * std::min(kLeastTimed, m_plan.frames);
+    const double all = fixed + seconds * m_plan.frames;
+    if (m_plan.secondsPerPoint <= 0) return views * all;
+    return views * std::clamp(m_plan.secondsPerPoint / views, least, all);
+}
+
+double TradeMeter::foretellReferences(const PictureSize& size) {
+    m_session.apply({size, m_plan.reference});
+    return timeFrame() * m_plan.referenceFrames * static_cast<double>(viewCount());
 }
 
 std::string TradeMeter::keyOf(const TradePoint& point) const {
     std::string text = m_source.identity() + "\nmodule " + m_session.moduleHash();
-    text += formatText("\nsize %dx%d warmup %d frames %d pictures %d reference %d", point.size.width, point.size.height,
-                       m_plan.warmup, m_plan.frames, m_plan.pictures, m_plan.referenceFrames);
+    text += formatText("\nsize %dx%d warmup %d frames %d in %g s awake %g s pictures %d reference %d error %g",
+                       point.size.width, point.size.height, m_plan.warmup, m_plan.frames, m_plan.secondsPerPoint,
+                       m_plan.awakeSeconds, m_plan.pictures, m_plan.referenceFrames, m_plan.referenceError);
     if (point.frames > 1) text += formatText("\nmean of %d", point.frames);
     for (const auto& [name, value] : point.cvars)
         text += "\n" + name + " " + value;
@@ -113,42 +228,48 @@ void TradeMeter::prepareReferences(const PictureSize& size) {
     if (m_referenceSize.width == size.width && m_referenceSize.height == size.height) return;
     m_references.clear();
     const ReferenceCache cache(cacheFolder() / "references");
-    const size_t viewCount = m_source.viewNames().size();
-    Progress progress("reference frame", viewCount * static_cast<size_t>(m_plan.referenceFrames));
+    Progress progress("reference frame", viewCount() * static_cast<size_t>(m_plan.referenceFrames));
     size_t done = 0;
     const auto onFrames = [&](int count) { progress.advance(done += static_cast<size_t>(count)); };
-    for (size_t view = 0; view < viewCount; ++view) {
+    for (size_t view = 0; view < viewCount(); ++view) {
         m_session.apply({size, m_plan.reference});
         const std::string dependsOn =
             m_source.identity() +
-            formatText("\nview %s\nsize %dx%d\nframes %d\n", m_source.viewNames()[view].c_str(), size.width,
-                       size.height, m_plan.referenceFrames) +
+            formatText("\nview %s\nsize %dx%d\nframes %d error %g\n", m_source.viewNames()[view].c_str(), size.width,
+                       size.height, m_plan.referenceFrames, m_plan.referenceError) +
             m_session.describeState();
-        std::optional<HostFrame> picture = cache.load(dependsOn, size);
-        if (!picture) {
-            picture = drawReference(view, onFrames);
-            cache.store(dependsOn, *picture);
+        std::optional<ReferencePicture> reference = cache.load(dependsOn, size);
+        if (!reference) {
+            reference = drawReference(view, onFrames);
+            cache.store(dependsOn, *reference);
         }
-        m_references.push_back(toMetricImage(*picture));
+        m_references.push_back({toMetricImage(reference->picture), reference->frames, reference->error});
     }
     m_referenceSize = size;
 }
 
 /// The reference's cvars are in force.
-HostFrame TradeMeter::drawReference(size_t view, const std::function<void(int)>& onFrames) {
+ReferencePicture TradeMeter::drawReference(size_t view, const std::function<void(int)>& onFrames) {
     m_session.draw(view, false); // nothing of an earlier setting or view stays in what is averaged
     m_session.setCvar(kAccumulate, "1");
-    for (int i = 1; i < m_plan.referenceFrames; ++i) {
-        m_session.draw(view, false);
-        onFrames(1);
+    ReferencePicture reference;
+    for (int i = 1;; ++i) {
+        const bool near = i > kLeastReference && reference.error && *reference.error <= m_plan.referenceError;
+        const bool last = near || i >= m_plan.referenceFrames;
+        DrawnFrame drawn = m_session.draw(view, last);
+        const auto stats = nlohmann::json::parse(m_session.stats(), nullptr, false);
+        if (stats.is_object() && stats.contains("expected_ssim"))
+            reference.error = 1.0 - stats["expected_ssim"].get<double>();
+        onFrames(last ? m_plan.referenceFrames - i + 1 : 1);
+        if (!last) continue;
+        reference.picture = std::move(*drawn.picture);
+        reference.frames = i;
+        return reference;
     }
-    DrawnFrame last = m_session.draw(view, true);
-    onFrames(1);
-    return std::move(*last.picture);
 }
 
 TradeErrors TradeMeter::comparePicture(size_t view, const HostFrame& picture) const {
-    const MetricImage& reference = m_references[view];
+    const MetricImage& reference = m_references[view].picture;
     const MetricImage test = toMetricImage(picture);
     return {computeSsim(reference, test).mean, computeFlip(reference, test).mean, computePsnr(reference, test),
             computeRelativeMse(reference, test)};
@@ -177,37 +298,36 @@ HostFrame TradeMeter::drawPicture(const TradePoint& point) {
     return *draw(point, 0, true, wallMs);
 }
 
-TradeResult TradeMeter::measure(const TradePoint& point, const std::function<void(int)>& onFrames) {
+TradeResult TradeMeter::measure(const TradePoint& point, const OnShare& onShare) {
     TradeResult result;
     result.key = keyOf(point);
     result.point = point;
     m_session.apply(point);
+    m_session.draw(0, false);
+    const int warmup = warmupOf();
     FigureList figures;
     std::vector<double> wallMs;
     std::vector<TradeErrors> viewErrors, pictureErrors;
-    for (size_t view = 0; view < m_source.viewNames().size(); ++view) {
-        m_session.approach(view, m_plan.warmup);
+    for (size_t view = 0; view < viewCount(); ++view) {
+        ViewTimer timer(*this, point, view, figures);
+        timer.warmUp(warmup);
+        const std::vector<HostFrame> pictures = timer.takePictures();
+        timer.takeTimes();
+        wallMs.insert(wallMs.end(), timer.wallMs().begin(), timer.wallMs().end());
+        result.views.push_back({m_source.viewNames()[view], computeQuantile(timer.wallMs(), 0.5), {}, 0, {}});
         pictureErrors.clear();
-        double ms = 0;
-        for (int i = 0; i < m_plan.pictures; ++i)
-            pictureErrors.push_back(comparePicture(view, *draw(point, view, true, ms)));
-        onFrames(m_plan.warmup + m_plan.pictures * point.frames);
-        std::vector<double> viewMs;
-        for (int i = 0; i < m_plan.frames; ++i) {
-            draw(point, view, false, ms);
-            viewMs.push_back(ms);
-            figures.addFrame(m_session.stats());
-        }
-        onFrames(m_plan.frames * point.frames);
-        wallMs.insert(wallMs.end(), viewMs.begin(), viewMs.end());
-        result.views.push_back({m_source.viewNames()[view], computeQuantile(viewMs, 0.5), {}});
+        for (const HostFrame& picture : pictures)
+            pictureErrors.push_back(comparePicture(view, picture));
+        onShare(static_cast<double>(view + 1) / static_cast<double>(viewCount()));
         if (pictureErrors.empty()) continue;
         viewErrors.push_back(meanOf(pictureErrors));
         result.views.back().errors = viewErrors.back();
+        storeReference(m_references[view].frames, m_references[view].error, result);
     }
     // Views are what the interval speaks of; of a single one, its pictures' noise.
     storeErrors(viewErrors.size() > 1 ? viewErrors : pictureErrors, result);
     result.wallMs = summarizeTrade(wallMs);
+    result.gpuMs = figures.deviceTimes();
     result.passes = figures.passes();
     result.groups = figures.groups();
     result.figures = figures.figures();
@@ -216,7 +336,6 @@ TradeResult TradeMeter::measure(const TradePoint& point, const std::function<voi
     result.backend = m_session.backend();
     result.module = m_session.moduleHash();
     result.reference = m_plan.reference;
-    result.referenceFrames = m_plan.referenceFrames;
     return result;
 }
 

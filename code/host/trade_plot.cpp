@@ -25,13 +25,14 @@ struct Box {
 
 class Plot {
   public:
-    Plot(std::span<const TradeResult> results, std::span<const std::string> labels)
+    Plot(std::span<const TradeResult> results, std::span<const std::string> labels, TradeClock clock)
         : m_results(results)
         , m_labels(labels)
-        , m_costs(costsOf(results))
+        , m_clock(clock)
+        , m_costs(costsOf(results, clock))
         , m_front(findFront(m_costs))
         , m_bottom(kPlotTop + kPlotHeight)
-        , m_x(timesOf(results), kPlotLeft, kPlotRight)
+        , m_x(timesOf(results, clock), kPlotLeft, kPlotRight)
         , m_y(errorsOf(results), m_bottom, kPlotTop) {}
 
     std::string draw(const std::string& title) {
@@ -43,10 +44,10 @@ class Plot {
     }
 
   private:
-    static std::vector<double> timesOf(std::span<const TradeResult> results) {
+    static std::vector<double> timesOf(std::span<const TradeResult> results, TradeClock clock) {
         std::vector<double> values;
         for (const TradeResult& r : results)
-            values.insert(values.end(), {r.wallMs.q1, r.wallMs.median, r.wallMs.q3});
+            values.insert(values.end(), {r.times(clock).q1, r.times(clock).median, r.times(clock).q3});
         return values;
     }
     /// Ends of intervals count only where a logarithm takes them: a bar that reaches 0 ends at the plot's edge.
@@ -79,8 +80,9 @@ class Plot {
         svg += drawLine(kPlotLeft, m_bottom, kPlotRight, m_bottom, kInk);
         svg += drawLine(kPlotLeft, kPlotTop, kPlotLeft, m_bottom, kInk);
         const double middle = 0.5 * (kPlotTop + m_bottom);
-        svg += drawText(0.5 * (kPlotLeft + kPlotRight), m_bottom + 44, "frame time in ms (median; bars: quartiles)",
-                        Align::Middle);
+        const char* time = m_clock == TradeClock::Device ? "frame time on the device in ms (median; bars: quartiles)"
+                                                         : "frame time in ms (median; bars: quartiles)";
+        svg += drawText(0.5 * (kPlotLeft + kPlotRight), m_bottom + 44, time, Align::Middle);
         return svg + drawUprightText(22, middle, "error: 1 - SSIM (mean over views; bars: 95 % confidence)");
     }
     std::string drawFront() const {
@@ -96,8 +98,9 @@ class Plot {
         for (size_t i = 0; i < m_results.size(); ++i) {
             const TradeResult& r = m_results[i];
             const char* color = isOnFront(i) ? kFrontColor : kOtherColor;
-            const double x = xOf(i), y = yOf(i), q1 = m_x.position(r.wallMs.q1), q3 = m_x.position(r.wallMs.q3);
-            svg += drawBar(q1, y, q3, y, color);
+            const double x = xOf(i), y = yOf(i);
+            const TradeTimes& times = r.times(m_clock);
+            svg += drawBar(m_x.position(times.q1), y, m_x.position(times.q3), y, color);
             if (r.ssim.interval) {
                 const double best = m_y.position(1.0 - r.ssim.interval->second);
                 const double worst = m_y.position(1.0 - r.ssim.interval->first);
@@ -156,6 +159,7 @@ class Plot {
 
     std::span<const TradeResult> m_results;
     std::span<const std::string> m_labels;
+    TradeClock m_clock;
     std::vector<TradeCost> m_costs;
     std::vector<size_t> m_front;
     double m_bottom;
@@ -165,8 +169,8 @@ class Plot {
 } // namespace
 
 std::string drawTradePlot(const std::string& title, std::span<const TradeResult> results,
-                          std::span<const std::string> labels) {
-    return Plot(results, labels).draw(title);
+                          std::span<const std::string> labels, TradeClock clock) {
+    return Plot(results, labels, clock).draw(title);
 }
 
 } // namespace q3rt

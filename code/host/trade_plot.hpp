@@ -12,6 +12,6 @@ namespace q3rt {
 
 /// `title` says what was measured, where. Labels name the points, in their order.
 std::string drawTradePlot(const std::string& title, std::span<const TradeResult> results,
-                          std::span<const std::string> labels);
+                          std::span<const std::string> labels, TradeClock clock);
 
 } // namespace q3rt

@@ -34,20 +34,21 @@ std::string settingsText(const TradePoint& point, bool levelsOnly) {
     return text;
 }
 
-std::string formatLine(const char* macro, const std::string& name, const TradeResult& result, bool levelsOnly) {
-    return formatText("%s(%s%.3f, %.4f, \"%s\")\n", macro, name.c_str(), result.wallMs.median, result.ssim.value,
+std::string formatLine(const char* macro, const std::string& name, const TradeResult& result, TradeClock clock,
+                       bool levelsOnly) {
+    return formatText("%s(%s%.3f, %.4f, \"%s\")\n", macro, name.c_str(), result.times(clock).median, result.ssim.value,
                       settingsText(result.point, levelsOnly).c_str());
 }
 
 /// The most accurate of a front (by rising time) that takes at most `ms`.
-size_t findWithin(std::span<const TradeResult> results, std::span<const size_t> front, double ms) {
+size_t findWithin(std::span<const TradeResult> results, std::span<const size_t> front, TradeClock clock, double ms) {
     size_t best = front[0];
     for (const size_t i : front)
-        if (results[i].wallMs.median <= ms) best = i;
+        if (results[i].times(clock).median <= ms) best = i;
     return best;
 }
 
-std::vector<TradeResult> findLevels(std::span<const TradeResult> results) {
+std::vector<TradeResult> findLevels(std::span<const TradeResult> results, TradeClock clock) {
     int bestCulling = 0;
     for (const TradeResult& result : results)
         bestCulling = std::max(bestCulling, std::atoi(valueOf(result.point, "rt_cullLights").c_str()));
@@ -61,40 +62,42 @@ std::vector<TradeResult> findLevels(std::span<const TradeResult> results) {
     }
     std::vector<TradeResult> levels;
     if (candidates.empty()) return levels;
-    for (const size_t i : findFront(costsOf(candidates)))
+    for (const size_t i : findFront(costsOf(candidates, clock)))
         levels.push_back(candidates[i]);
     return levels;
 }
 
 } // namespace
 
-std::string formatPresets(std::span<const TradeResult> results, const std::string& title, const std::string& command) {
+std::string formatPresets(std::span<const TradeResult> results, TradeClock clock, const std::string& title,
+                          const std::string& command) {
     for (const TradeResult& result : results)
         if (result.point.size.width != results[0].point.size.width ||
             result.point.size.height != results[0].point.size.height || result.point.frames != 1)
             throw UsageError("--presets: the points differ in size or are means of frames; sweep settings alone");
-    const std::vector<TradeResult> levels = findLevels(results);
+    const std::vector<TradeResult> levels = findLevels(results, clock);
     if (levels.empty())
         throw UsageError("--presets: no point has rt_denoiser 1 and rt_taa 1; add --axis rt_denoiser=0,1 and "
                          "--axis rt_taa=0,1");
-    const std::vector<size_t> front = findFront(costsOf(results));
+    const std::vector<size_t> front = findFront(costsOf(results, clock));
     // Times within the fastest point's own spread are as fast.
-    const double fastest = results[front.front()].wallMs.q3, slowest = results[front.back()].wallMs.median;
+    const double fastest = results[front.front()].times(clock).q3, slowest = results[front.back()].times(clock).median;
     std::string text =
         "// Points of a measured front: PRESET(name, ms, SSIM, settings), and the levels that rt_targetMs "
         "moves along,\n// LEVEL(ms, SSIM, settings), each dearer and better than the one before. Made by "
         "q3rt trade --presets.\n";
-    text += "// " + title + ", back end " + results[0].backend + ", renderer " + results[0].module + "\n";
+    text += std::string("// ") + (clock == TradeClock::Device ? "time on the device; " : "") + title + ", back end " +
+            results[0].backend + ", renderer " + results[0].module + "\n";
     text += "// " + command + "\n";
     for (size_t i = 0; i < kPresetNames.size(); ++i) {
         const double share = static_cast<double>(i) / static_cast<double>(kPresetNames.size() - 1);
         // The last one is the slowest itself, whatever rounding or a wide spread makes of it.
         const double ms = i + 1 == kPresetNames.size() ? slowest : fastest * std::pow(slowest / fastest, share);
-        const TradeResult& result = results[findWithin(results, front, ms)];
-        text += formatLine("PRESET", formatText("\"%s\", ", kPresetNames[i]), result, false);
+        const TradeResult& result = results[findWithin(results, front, clock, ms)];
+        text += formatLine("PRESET", formatText("\"%s\", ", kPresetNames[i]), result, clock, false);
     }
     for (const TradeResult& level : levels)
-        text += formatLine("LEVEL", "", level, true);
+        text += formatLine("LEVEL", "", level, clock, true);
     return text;
 }
 

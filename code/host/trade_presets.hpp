@@ -14,6 +14,7 @@ namespace q3rt {
 /// points with denoiser, TAA, the best culling and a number of lights, which differ in lights, depth and scale alone: a
 /// renderer can change these from frame to frame. Throws UsageError if the sweep has none of those, or points of
 /// several sizes.
-std::string formatPresets(std::span<const TradeResult> results, const std::string& title, const std::string& command);
+std::string formatPresets(std::span<const TradeResult> results, TradeClock clock, const std::string& title,
+                          const std::string& command);
 
 } // namespace q3rt

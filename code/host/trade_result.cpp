@@ -15,6 +15,8 @@ using Json = nlohmann::ordered_json;
 /// JSON has no infinity.
 Json toJson(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+Json toJson(const std::optional<double>& value) { return value ? toJson(*value) : Json(nullptr); }
+
 Json toJson(const TradeEstimate& estimate) {
     Json json = {{"value", toJson(estimate.value)}, {"low", nullptr}, {"high", nullptr}};
     if (!estimate.interval) return json;
@@ -42,7 +44,9 @@ Json toJson(const TradeResult::View& view) {
             {"ssim", toJson(view.errors.ssim)},
             {"flip", toJson(view.errors.flip)},
             {"psnr", toJson(view.errors.psnr)},
-            {"relmse", toJson(view.errors.relmse)}};
+            {"relmse", toJson(view.errors.relmse)},
+            {"reference_frames", view.referenceFrames},
+            {"reference_error", toJson(view.referenceError)}};
 }
 
 /// How every line of ours begins: nothing else is ever cut off a file.
@@ -80,6 +84,7 @@ std::string toJsonLine(const TradeResult& result) {
     Json line = {{"key", result.key},
                  {"settings", settings},
                  {"wall_ms", toJson(result.wallMs)},
+                 {"gpu_ms", result.gpuMs ? toJson(*result.gpuMs) : Json(nullptr)},
                  {"ssim", toJson(result.ssim)},
                  {"flip", toJson(result.flip)},
                  {"psnr", toJson(result.psnr)},
@@ -99,7 +104,8 @@ std::string toJsonLine(const TradeResult& result) {
     line["device"] = result.device;
     line["backend"] = result.backend;
     line["module"] = result.module;
-    line["reference"] = {{"frames", result.referenceFrames}, {"settings", result.reference}};
+    line["reference"] = {
+        {"frames", result.referenceFrames}, {"error", toJson(result.referenceError)}, {"settings", result.reference}};
     line["command"] = result.command;
     return line.dump();
 }
@@ -120,6 +126,10 @@ std::optional<TradeResult> parseResult(const std::string& line) {
             else if (name != "size")
                 result.point.cvars[name] = value;
         result.wallMs = toTimes(json.at("wall_ms"));
+        if (const Json gpuMs = json.value("gpu_ms", Json()); gpuMs.is_object()) result.gpuMs = toTimes(gpuMs);
+        const Json reference = json.value("reference", Json::object());
+        result.referenceFrames = reference.value("frames", 0);
+        if (const Json error = reference.value("error", Json()); error.is_number()) result.referenceError = error;
         const Json groups = json.value("pass_groups", Json::object());
         for (const auto& [name, times] : groups.items())
             result.groups[name] = toTimes(times);

@@ -28,6 +28,12 @@ struct TradeTimes {
 };
 TradeTimes summarizeTrade(std::span<const double> ms);
 
+/// Which time a sweep is judged by.
+enum class TradeClock {
+    Wall,  ///< what a player waits
+    Device ///< what the device's timers say of all passes; wall time where it has none
+};
+
 struct TradeErrors {
     double ssim = 0, flip = 0, psnr = 0, relmse = 0;
 };
@@ -36,20 +42,26 @@ struct TradeResult {
     std::string key; ///< of everything that the numbers depend on, but for the device
     TradePoint point;
     TradeTimes wallMs;
+    std::optional<TradeTimes> gpuMs; ///< all passes; nullopt: the device has no timers
     TradeEstimate ssim, flip, psnr, relmse;
     std::map<std::string, double> passes;     ///< median ms on the device, by pass
     std::map<std::string, TradeTimes> groups; ///< ms on the device of all passes whose names begin with this word
-    std::map<std::string, double> figures;    ///< medians of the module's other numbers: gpu_ms, rays, lights ...
+    std::map<std::string, double> figures;    ///< medians of the module's other numbers: rays, lights ...
     struct View {
         std::string name;
         double medianMs = 0;
         TradeErrors errors;
+        int referenceFrames = 0;
+        std::optional<double> referenceError; ///< 1 - SSIM, as ReferencePicture has it
     };
     std::vector<View> views;
     size_t frameCount = 0; ///< measured
     std::string device, backend, module, command;
     std::map<std::string, std::string> reference; ///< the reference's settings
-    int referenceFrames = 0;
+    int referenceFrames = 0;                      ///< most of a view
+    std::optional<double> referenceError;         ///< largest of a view
+
+    const TradeTimes& times(TradeClock clock) const { return clock == TradeClock::Device && gpuMs ? *gpuMs : wallMs; }
 };
 
 /// One line without its end.

@@ -42,6 +42,7 @@ class MapSource : public TradeSource {
         for (int i = 0; i < frames; ++i)
             draw(engine, view, false);
     }
+    bool approachIsView() const override { return true; }
     DrawnFrame draw(HeadlessEngine& engine, size_t view, bool capture) override {
         const glconfig_t& config = engine.config();
         const refdef_t seen =
@@ -116,6 +117,7 @@ class RecordingSource : public TradeSource {
                 m_replayer->redraw(kept->second, Replayer::Draw::Frame);
         }
     }
+    bool approachIsView() const override { return false; }
     DrawnFrame draw(HeadlessEngine&, size_t view, bool capture) override {
         Replayer::Result result =
             m_replayer->redraw(m_kept.at(m_chosen[view]), capture ? Replayer::Draw::Capture : Replayer::Draw::Frame);

@@ -31,6 +31,8 @@ class TradeSource {
     /// Draws what comes before a view, so that renderers with a memory have one: the frames before it in a recording,
     /// the view itself otherwise.
     virtual void approach(HeadlessEngine& engine, size_t view, int frames) = 0;
+    /// Are those frames the view itself?
+    virtual bool approachIsView() const = 0;
     virtual DrawnFrame draw(HeadlessEngine& engine, size_t view, bool capture) = 0;
 
   protected:

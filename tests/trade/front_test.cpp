@@ -43,7 +43,7 @@ TEST(TradeFront, IsMonotonousAndBeatsTheRest) {
 TEST(TradeTable, ColumnsAlignAndTheFrontIsMarked) {
     const std::vector<TradeResult> results = {makeResult(1, 0.5), makeResult(222.25, 0.4), makeResult(3, 0.75)};
     const std::vector<std::string> labels = {"first", "second", "third"};
-    const std::string table = formatTradeTable(results, labels);
+    const std::string table = formatTradeTable(results, labels, TradeClock::Wall);
     std::vector<std::string> lines;
     for (size_t start = 0; start < table.size();) {
         const size_t end = table.find('\n', start);

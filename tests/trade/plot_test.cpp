@@ -52,7 +52,7 @@ TEST(TradePlot, IsWellFormedAndInsideThePicture) {
                                    makeSample(60, 1000, 0.008), makeSample(2, 1, 0.5)};
     samples[2].labels[0] = "a < b & \"c\" > d\x01";
     for (const Sample& sample : samples) {
-        const std::string svg = drawTradePlot("title & more", sample.results, sample.labels);
+        const std::string svg = drawTradePlot("title & more", sample.results, sample.labels, TradeClock::Wall);
         EXPECT_EQ(findXmlFault(svg), "");
         EXPECT_EQ(svg.find("nan"), std::string::npos);
         EXPECT_EQ(svg.find("inf"), std::string::npos);

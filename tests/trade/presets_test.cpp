@@ -25,7 +25,7 @@ std::vector<TradeResult> makeSweep() {
 }
 
 TEST(TradePresets, ArePointsOfTheFront) {
-    const std::string text = formatPresets(makeSweep(), "fan", "q3rt trade ...");
+    const std::string text = formatPresets(makeSweep(), TradeClock::Wall, "fan", "q3rt trade ...");
     const auto settings = [](const char* lights, const char* filters) {
         return std::string("\"rt_cullLights 1 rt_denoiser ") + filters + " rt_numRandomDL " + lights + " rt_taa " +
                filters + "\")\n";
@@ -42,13 +42,13 @@ TEST(TradePresets, ArePointsOfTheFront) {
 
 TEST(TradePresets, WantPointsThatCompare) {
     const std::vector<TradeResult> plain = {makePoint(1, 0.8, "1", "0")};
-    EXPECT_THROW(formatPresets(plain, "", ""), UsageError);
+    EXPECT_THROW(formatPresets(plain, TradeClock::Wall, "", ""), UsageError);
     std::vector<TradeResult> sizes = makeSweep();
     sizes[2].point.size.width *= 2;
-    EXPECT_THROW(formatPresets(sizes, "", ""), UsageError);
+    EXPECT_THROW(formatPresets(sizes, TradeClock::Wall, "", ""), UsageError);
     std::vector<TradeResult> means = makeSweep();
     means[2].point.frames = 4;
-    EXPECT_THROW(formatPresets(means, "", ""), UsageError);
+    EXPECT_THROW(formatPresets(means, TradeClock::Wall, "", ""), UsageError);
 }
 
 } // namespace
