@@ -20,7 +20,7 @@ struct TradePlan {
     double awakeSeconds = 0;    ///< drawn before frames are timed: a device's clock sleeps while pictures are compared
     int pictures = 1;           ///< compared pictures a view; 0: times alone, errors are infinite
     int referenceFrames = 1024; ///< at most
-    double referenceError = 0;  ///< 1 - SSIM to the truth, by the renderer's word, at which a reference is done
+    double referenceError = 0.001; ///< 1 - SSIM to the truth, by the renderer's word, at which a reference is done
     std::map<std::string, std::string> reference; ///< the reference's cvars, but for rt_accumulate
 };
 

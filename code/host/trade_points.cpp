@@ -25,8 +25,8 @@ struct Choice {
 
 /// Telling ones first: a sweep cut short still shows what each setting does.
 std::vector<Choice> listChoices() {
-    std::vector<Choice> choices = {{1, 1, 0, 0}, {1, 1, 1, 1}, {0, 1, 0, 0},  {1, 0, 0, 0}, {0, 0, 0, 0},
-                                   {1, 0, 1, 0}, {4, 1, 0, 0}, {16, 1, 0, 0}, {4, 1, 1, 1}, {0, 1, 1, 1}};
+    std::vector<Choice> choices = {{1, 1, 0, 0}, {1, 1, 1, 1}, {0, 1, 0, 0}, {1, 0, 0, 0}, {0, 0, 0, 0},
+                                   {1, 0, 1, 0}, {1, 1, 1, 0}, {4, 1, 0, 0}, {4, 1, 1, 1}, {0, 1, 1, 1}};
     for (const auto& [denoiser, taa] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
         for (const int lights : {1, 0, 4, 16, 2, 8})
             choices.push_back({lights, 1, denoiser, taa});

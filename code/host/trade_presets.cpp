@@ -16,6 +16,9 @@ constexpr std::array<const char*, 3> kLevelCvars = {"rt_numRandomDL", "rt_reflec
 /// Of the machine or of a run, not of the picture.
 constexpr std::array<const char*, 2> kNoChoice = {"rt_backend", "rt_seed"};
 
+/// SSIM below which no picture is offered: its noise is what one sees of it first.
+constexpr double kLeastLikeness = 0.9;
+
 template <size_t N>
 bool isOneOf(const std::array<const char*, N>& names, const std::string& name) {
     return std::any_of(names.begin(), names.end(), [&](const char* known) { return name == known; });
@@ -79,7 +82,9 @@ std::string formatPresets(std::span<const TradeResult> results, TradeClock clock
     if (levels.empty())
         throw UsageError("--presets: no point has rt_denoiser 1 and rt_taa 1; add --axis rt_denoiser=0,1 and "
                          "--axis rt_taa=0,1");
-    const std::vector<size_t> front = findFront(costsOf(results, clock));
+    std::vector<size_t> front = findFront(costsOf(results, clock));
+    if (results[front.back()].ssim.value >= kLeastLikeness)
+        std::erase_if(front, [&](size_t i) { return results[i].ssim.value < kLeastLikeness; });
     // Times within the fastest point's own spread are as fast.
     const double fastest = results[front.front()].times(clock).q3, slowest = results[front.back()].times(clock).median;
     std::string text =

@@ -50,7 +50,7 @@ TEST(TradeTable, ColumnsAlignAndTheFrontIsMarked) {
         lines.push_back(table.substr(start, end - start));
         start = end + 1;
     }
-    ASSERT_EQ(lines.size(), 5u);
+    ASSERT_EQ(lines.size(), 6u);
     EXPECT_EQ(lines[1].find("first"), lines[2].find("second"));
     EXPECT_EQ(lines[1].find("first"), lines[3].find("third"));
     EXPECT_EQ(lines[1].find('*'), lines[3].find('*'));
@@ -58,6 +58,26 @@ TEST(TradeTable, ColumnsAlignAndTheFrontIsMarked) {
     EXPECT_EQ(lines[2].find('*'), std::string::npos);
     EXPECT_NE(lines[1].find("0.5000 +-0.0100"), std::string::npos) << lines[1];
     EXPECT_NE(lines[1].find("equal"), std::string::npos) << "PSNR of equal pictures";
+    EXPECT_NE(lines[0].find("device ms"), std::string::npos);
+    EXPECT_NE(lines[2].find("111.12"), std::string::npos) << "time on the device: " << lines[2];
+    EXPECT_NE(lines[5].find("up to 512 frames"), std::string::npos) << lines[5];
+    EXPECT_NE(lines[5].find("0.00100"), std::string::npos) << lines[5];
+    EXPECT_NE(lines[5].find("0.25000"), std::string::npos) << "the nearest setting: " << lines[5];
+}
+
+// What waits for the processor alone costs the device nothing.
+TEST(TradeTable, TheClockDecidesTheFront) {
+    std::vector<TradeResult> results = {makeResult(1, 0.5), makeResult(2, 0.4)};
+    results[1].gpuMs->median = 0.1;
+    EXPECT_EQ(findFront(costsOf(results, TradeClock::Wall)), (std::vector<size_t>{0}));
+    EXPECT_EQ(findFront(costsOf(results, TradeClock::Device)), (std::vector<size_t>{1, 0}));
+    const std::string table = formatTradeTable(results, std::vector<std::string>{"a", "b"}, TradeClock::Device);
+    EXPECT_NE(table.find("faster on the device"), std::string::npos) << table;
+    results[0].gpuMs.reset();
+    results[1].gpuMs.reset();
+    EXPECT_EQ(formatTradeTable(results, std::vector<std::string>{"a", "b"}, TradeClock::Wall).find("device"),
+              std::string::npos)
+        << "no timers, no column";
 }
 
 } // namespace q3rt::test

@@ -44,10 +44,27 @@ TEST(TradeResult, ALineHoldsWhatWasMeasured) {
     EXPECT_EQ(parsed->device, result.device);
     EXPECT_EQ(parsed->point, result.point);
     EXPECT_EQ(parsed->wallMs.q3, result.wallMs.q3);
+    ASSERT_TRUE(parsed->gpuMs);
+    EXPECT_EQ(parsed->gpuMs->q1, result.gpuMs->q1);
+    EXPECT_EQ(parsed->times(TradeClock::Device).median, 6.25);
+    EXPECT_EQ(parsed->times(TradeClock::Wall).median, 12.5);
+    EXPECT_EQ(parsed->referenceFrames, 512);
+    EXPECT_EQ(parsed->referenceError, 0.001);
     EXPECT_EQ(parsed->ssim.interval, result.ssim.interval);
     EXPECT_FALSE(parsed->flip.interval);
     EXPECT_TRUE(std::isinf(parsed->psnr.value));
     EXPECT_EQ(parsed->figures.at("rays"), 1e6);
+}
+
+TEST(TradeResult, WithoutTimersTheWallClockIsAllThereIs) {
+    TradeResult result = makeResult(12.5, 0.875);
+    result.gpuMs.reset();
+    result.referenceError.reset();
+    const auto parsed = parseResult(toJsonLine(result));
+    ASSERT_TRUE(parsed);
+    EXPECT_FALSE(parsed->gpuMs);
+    EXPECT_FALSE(parsed->referenceError);
+    EXPECT_EQ(parsed->times(TradeClock::Device).median, 12.5);
 }
 
 TEST(TradeResult, IntervalsWantTwoValues) {

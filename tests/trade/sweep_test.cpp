@@ -86,6 +86,62 @@ TEST(TradeCommand, MeasuresTheSmokeSweepAndGoesOnAfterACut) {
     EXPECT_EQ(again.substr(0, nineLines), lines.substr(0, nineLines));
 }
 
+// A point without time takes three frames a view; a reference that may be far from the truth is done early, is known
+// again, and says of itself how far it is.
+TEST(TradeCommand, TimeGoesWhereItMatters) {
+    const fs::path folder = makeScratchFolder("budget");
+    const auto run = [&](const std::string& out, const std::string& error) {
+        return runQ3rt({"trade",
+                        "--map",
+                        "room_square_light",
+                        "--basepath",
+                        Q3RT_BUILD_DIR,
+                        "--game",
+                        "baseq3-test",
+                        "--at",
+                        "spawn:0..1",
+                        "--size",
+                        "64x48",
+                        "--axis",
+                        "rt_denoiser=0,1",
+                        "--set",
+                        "rt_taa=0",
+                        "--count",
+                        "50",
+                        "--seconds-per-point",
+                        "0.0001",
+                        "--reference-frames",
+                        "120",
+                        "--reference-error",
+                        error,
+                        "--out",
+                        (folder / out).string()},
+                       {"XDG_CACHE_HOME=" + (folder / "cache").string()});
+    };
+    const ProgramResult loose = run("loose.jsonl", "0.9");
+    if (loose.errors.find("no Vulkan driver") != std::string::npos) GTEST_SKIP() << "no Vulkan device";
+    ASSERT_EQ(loose.exitCode, 0) << loose.errors;
+    EXPECT_NE(loose.errors.find("2 points: about"), std::string::npos) << loose.errors;
+    EXPECT_NE(loose.output.find("references: means of up to 65 frames"), std::string::npos) << loose.output;
+    const std::string lines = readText(folder / "loose.jsonl");
+    const size_t second = lines.find('\n') + 1;
+    for (const std::string& line : {lines.substr(0, second), lines.substr(second)}) {
+        const auto json = nlohmann::json::parse(line);
+        EXPECT_EQ(json["frames"], 6);
+        EXPECT_EQ(json["reference"]["frames"], 65);
+        EXPECT_GT(json["reference"]["error"], 0.0);
+        EXPECT_LT(json["reference"]["error"], 0.9);
+        EXPECT_GT(json["gpu_ms"]["median"], 0.0);
+    }
+    const ProgramResult strict = run("strict.jsonl", "0");
+    ASSERT_EQ(strict.exitCode, 0) << strict.errors;
+    EXPECT_NE(strict.output.find("means of up to 120 frames"), std::string::npos) << strict.output;
+    fs::remove(folder / "loose.jsonl");
+    const ProgramResult again = run("loose.jsonl", "0.9");
+    EXPECT_EQ(again.errors.find("reference frame"), std::string::npos) << "references come from the cache";
+    EXPECT_NE(again.output.find("means of up to 65 frames"), std::string::npos) << again.output;
+}
+
 TEST(TradeCommand, MeasuresChosenFramesOfARecording) {
     const fs::path folder = makeScratchFolder("recording");
     recordRoom(folder / "room.q3t", 12);
