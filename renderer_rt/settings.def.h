@@ -29,7 +29,7 @@ SETTING(rt_minLight, Float, 0.0f, 0, 1, A, "", "light that every lit surface sho
 SETTING(rt_seed, Int, 0, 0, 16777215, A, "", "of all random numbers: the same seed gives the same frames")
 SETTING(rt_backend, Text, "auto", 0, 0, AL, "", "auto, pipeline, query or compute: what traces rays")
 SETTING(rt_countWork, Int, 0, 0, 1, none, "", "counts rays, and what only some scenes require: any-hit calls, layers, turned rays, looks at the sky; q3rt_stats has the counts")
-SETTING(rt_onlyRequired, Int, 1, 0, 1, none, "", "0 looks for blended surfaces, the view weapon's depth range and several skies in scenes without them too: what leaving them out saves")
+SETTING(rt_onlyRequired, Int, 1, 0, 4, none, "", "looks in scenes without them too for: 0 blended surfaces, the view weapon's depth range and several skies; 2, 3, 4 one of these; 1 none: what leaving them out saves")
 SETTING(rt_checkFinite, Int, 0, 0, 1, none, "", "counts what is no number after each pass; q3rt_stats has the counts")
 SETTING(rt_preset, Text, "custom", 0, 0, A, "", "custom takes every setting as it is; fast, balanced, quality, reference: points of the measured front, in place of what they name")
 SETTING(rt_targetMs, Float, 0.0f, 0, 1000, A, "ms", "of device time a frame, held by moving along the measured front (lights, depth, scale); 0: settings stay")

@@ -163,7 +163,7 @@ std::string TraceRenderer::extraStats() const {
         text += formatText(",\"history\":%s", m_lastBuffers->guides || m_lastBuffers->exposure ? "true" : "false");
     if (m_lastBuffers && m_lastBuffers->sums)
         text += formatText(",\"samples\":%u", m_lastBuffers->sums->sampleNumber + 1);
-    if (report.hasError)
+    if (report.hasError && m_lastBuffers && m_lastBuffers->sums)
         text += formatText(",\"expected_ssim\":%.6f,\"standard_error\":%.8f", report.likeness, report.error);
     if (countsRays()) text += formatText(",\"rays\":%llu", static_cast<unsigned long long>(report.rayCount));
     if (m_settings.rt_countWork)

@@ -25,6 +25,10 @@ constexpr int kLongestFrameMs = 250;
 /// Overbright bits that irradiance 63.75 stands for: a texture at its own brightness.
 constexpr int kWhiteOverbrightBits = 2;
 
+/// What is looked for in scenes without it too, by rt_onlyRequired.
+constexpr uint32_t kSoughtAnyway[] = {kFrameLayers | kFrameNearEntities | kFrameSkySurfaces, 0, kFrameLayers,
+                                      kFrameNearEntities, kFrameSkySurfaces};
+
 float tangentOfHalf(float degrees) {
     return static_cast<float>(std::tan(static_cast<double>(degrees) * 3.14159265358979323846 / 360.0));
 }
@@ -99,7 +103,7 @@ void TraceRenderer::describeSettings(RtFrame& out) const {
     if (m_settings.rt_linear) out.flags |= kFrameLinear;
     if (m_settings.rt_countWork) out.flags |= kFrameCountWork;
     if (countsRays()) out.flags |= kFrameCountRays;
-    if (!m_settings.rt_onlyRequired) out.flags |= kFrameLayers | kFrameNearEntities | kFrameSkySurfaces;
+    out.flags |= kSoughtAnyway[m_settings.rt_onlyRequired];
     out.exposure = m_settings.rt_exposure;
     out.lightScale = std::exp2(static_cast<float>(settings().r_mapOverBrightBits - kWhiteOverbrightBits));
     out.leastLight = m_settings.rt_minLight;
@@ -154,7 +158,8 @@ const TracedView& TraceRenderer::prepareView(const FrameCommands& frame, const S
     describeSettings(view.frame);
     constexpr float kEverywhere = std::numeric_limits<float>::max();
     view.frame.nearArea = vec4(-kEverywhere, -kEverywhere, kEverywhere, kEverywhere);
-    if (m_settings.rt_onlyRequired) view.frame.nearArea = findNearArea(m_geometry, view.frame);
+    if (!(kSoughtAnyway[m_settings.rt_onlyRequired] & kFrameNearEntities))
+        view.frame.nearArea = findNearArea(m_geometry, view.frame);
     view.frame.frame = m_frameNumber++;
     preparePicture(frame, scene, buffers, view.frame);
     prepareHistory(frame, scene, buffers, view.frame);

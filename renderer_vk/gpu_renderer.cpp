@@ -152,10 +152,13 @@ void GpuRenderer::publishStats() {
         total += pass.ms;
         passes += formatText("%s\"%s\":%.4f", passes.empty() ? "" : ",", pass.name.c_str(), pass.ms);
     }
-    engine().setCvar("q3rt_stats",
-                     formatText("{\"gpu_ms\":%.4f,\"passes\":{%s},\"device\":\"%s\",\"backend\":\"%s\"%s}", total,
-                                passes.c_str(), m_context->device().capabilities().deviceName.c_str(), backendName(),
-                                extraStats().c_str()));
+    constexpr double kMiB = 1 << 20;
+    const double memoryMib = static_cast<double>(m_context->device().memory().measureUse().usedBytes) / kMiB;
+    engine().setCvar(
+        "q3rt_stats",
+        formatText("{\"gpu_ms\":%.4f,\"passes\":{%s},\"device\":\"%s\",\"backend\":\"%s\",\"memory_mib\":%.1f%s}",
+                   total, passes.c_str(), m_context->device().capabilities().deviceName.c_str(), backendName(),
+                   memoryMib, extraStats().c_str()));
 }
 
 } // namespace q3rt

@@ -216,6 +216,27 @@ void runTrade(TradeArguments a) {
     report(a, title, points, std::move(results));
 }
 
+/// Where a sweep's time goes.
+void addTimeOptions(CLI::App& command, TradeArguments& a) {
+    command
+        .add_option("--seconds-per-point", a.plan.secondsPerPoint,
+                    "No more timed frames after so long, but 3 a view; 0: no limit")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command
+        .add_option("--awake", a.plan.awakeSeconds,
+                    "Seconds of drawing before a view's frames are timed: a GPU's clock sleeps while pictures are "
+                    "compared")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    const std::map<std::string, TradeClock> clocks = {{"wall", TradeClock::Wall}, {"device", TradeClock::Device}};
+    command
+        .add_option("--clock", a.clock,
+                    "The time that the front, the plot and presets are about: wall, or device: the sum of its passes")
+        ->transform(CLI::CheckedTransformer(clocks))
+        ->type_name("wall|device");
+}
+
 void addSweepOptions(CLI::App& command, TradeArguments& a) {
     command.add_option("--points", a.pointCount, "The first N of the standard sweep's points, the telling ones first")
         ->check(CLI::PositiveNumber)
@@ -242,23 +263,6 @@ void addSweepOptions(CLI::App& command, TradeArguments& a) {
     command.add_option("--count", a.plan.frames, "Timed frames a view, at most")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
-    command
-        .add_option("--seconds-per-point", a.plan.secondsPerPoint,
-                    "No more timed frames after so long, but 3 a view; 0: no limit")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
-    command
-        .add_option("--awake", a.plan.awakeSeconds,
-                    "Seconds of drawing before a view's frames are timed: a GPU's clock sleeps while pictures are "
-                    "compared")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
-    const std::map<std::string, TradeClock> clocks = {{"wall", TradeClock::Wall}, {"device", TradeClock::Device}};
-    command
-        .add_option("--clock", a.clock,
-                    "The time that the front, the plot and presets are about: wall, or device: the sum of its passes")
-        ->transform(CLI::CheckedTransformer(clocks))
-        ->type_name("wall|device");
     command.add_option("--pictures", a.pictures, "Compared pictures a view (default: 1, of a single view 4)")
         ->check(CLI::PositiveNumber);
     command.add_option("--reference-frames", a.plan.referenceFrames, "Frames that the reference averages, at most")
@@ -325,6 +329,7 @@ void addTradeCommand(CLI::App& app, int& exitCode) {
     addSizeOption(*command, a->size);
     addSetOption(*command, a->fixed);
     addSweepOptions(*command, *a);
+    addTimeOptions(*command, *a);
     command->add_flag("--json", a->json, "Print a JSON line a point instead of the table");
     command->add_flag("--verbose", a->verbose, "Show the renderer's messages");
     addGameOptions(*command, a->game);

@@ -9,7 +9,7 @@
 namespace q3rt {
 namespace {
 
-constexpr size_t kColumnCount = 12, kDeviceColumn = 5, kRaysColumn = 10;
+constexpr size_t kColumnCount = 13, kDeviceColumn = 5, kRaysColumn = 10, kMemoryColumn = 11;
 using Row = std::array<std::string, kColumnCount>;
 
 /// 0.912 +-0.004
@@ -28,12 +28,19 @@ std::string figureText(const TradeResult& result, const char* name) {
 
 Row makeRow(const TradeResult& result, size_t number, bool onFront, const std::string& label) {
     const TradeTimes& t = result.wallMs;
-    return {formatText("%zu", number),    onFront ? "*" : "",
-            formatText("%.2f", t.median), formatText("%.2f-%.2f", t.q1, t.q3),
-            formatText("%.2f", t.p99),    result.gpuMs ? formatText("%.2f", result.gpuMs->median) : "",
-            estimateText(result.ssim, 4), estimateText(result.flip, 4),
-            estimateText(result.psnr, 2), estimateText(result.relmse, 4),
-            figureText(result, "rays"),   label};
+    return {formatText("%zu", number),
+            onFront ? "*" : "",
+            formatText("%.2f", t.median),
+            formatText("%.2f-%.2f", t.q1, t.q3),
+            formatText("%.2f", t.p99),
+            result.gpuMs ? formatText("%.2f", result.gpuMs->median) : "",
+            estimateText(result.ssim, 4),
+            estimateText(result.flip, 4),
+            estimateText(result.psnr, 2),
+            estimateText(result.relmse, 4),
+            figureText(result, "rays"),
+            figureText(result, "memory_mib"),
+            label};
 }
 
 std::string describeReferences(std::span<const TradeResult> results) {
@@ -78,16 +85,14 @@ std::string formatTradeTable(std::span<const TradeResult> results, std::span<con
     for (const size_t i : findFront(costsOf(results, clock)))
         onFront[i] = true;
     std::vector<Row> rows = {
-        {"#", "", "ms", "quartiles", "p99", "device ms", "SSIM", "FLIP", "PSNR dB", "relMSE", "rays", ""}};
+        {"#", "", "ms", "quartiles", "p99", "device ms", "SSIM", "FLIP", "PSNR dB", "relMSE", "rays", "MiB", ""}};
     for (size_t i = 0; i < results.size(); ++i)
         rows.push_back(makeRow(results[i], i + 1, onFront[i], labels[i]));
     std::array<size_t, kColumnCount> widths{};
-    const bool knowsRays = std::any_of(results.begin(), results.end(),
-                                       [](const TradeResult& result) { return result.figures.contains("rays"); });
-    if (!knowsRays) rows[0][kRaysColumn].clear();
-    const bool knowsDevice =
-        std::any_of(results.begin(), results.end(), [](const TradeResult& result) { return result.gpuMs.has_value(); });
-    if (!knowsDevice) rows[0][kDeviceColumn].clear();
+    // What no renderer and device of the sweep tells has no column.
+    for (const size_t column : {kDeviceColumn, kRaysColumn, kMemoryColumn})
+        if (std::all_of(rows.begin() + 1, rows.end(), [&](const Row& row) { return row[column].empty(); }))
+            rows[0][column].clear();
     for (const Row& row : rows)
         for (size_t c = 0; c < kColumnCount; ++c)
             widths[c] = std::max(widths[c], row[c].size());

@@ -16,7 +16,7 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr const char* kAccumulate = "rt_accumulate";
+constexpr const char *kAccumulate = "rt_accumulate", *kCountWork = "rt_countWork";
 /// What a module calls the device's time of all its passes.
 constexpr const char* kDeviceTime = "gpu_ms";
 /// Frames until a frame's time is that of one among others: two are under way, and after a picture was fetched none is.
@@ -188,6 +188,19 @@ bool TradeMeter::remembersFrames() const {
     return !stats.is_object() || stats.value("history", true);
 }
 
+std::optional<double> TradeMeter::countRays(const TradePoint& point) {
+    const bool counts = m_session.isDeclared(kCountWork);
+    if (counts) m_session.setCvar(kCountWork, "1");
+    // Statistics are those of the frame that is done.
+    for (int i = 0; i <= kSettle; ++i)
+        m_session.draw(0, false);
+    const auto stats = nlohmann::json::parse(m_session.stats(), nullptr, false);
+    // Counting takes time: no frame that is timed does it unless the point asks for it.
+    m_session.apply(point);
+    if (!counts || !stats.is_object() || !stats.contains("rays")) return std::nullopt;
+    return stats["rays"].get<double>();
+}
+
 double TradeMeter::timeFrame() {
     const auto start = SteadyClock::now();
     m_session.draw(0, true);
@@ -201,8 +214,9 @@ double TradeMeter::foretell(const TradePoint& point) {
     const double fixed = seconds * (warmupOf() + m_plan.pictures + kSettle) + m_plan.awakeSeconds;
     const double least = fixed + seconds * std::min(kLeastTimed, m_plan.frames);
     const double all = fixed + seconds * m_plan.frames;
-    if (m_plan.secondsPerPoint <= 0) return views * all;
-    return views * std::clamp(m_plan.secondsPerPoint / views, least, all);
+    const double counted = seconds * (kSettle + 1);
+    if (m_plan.secondsPerPoint <= 0) return counted + views * all;
+    return counted + views * std::clamp(m_plan.secondsPerPoint / views, least, all);
 }
 
 double TradeMeter::foretellReferences(const PictureSize& size) {
@@ -303,7 +317,7 @@ TradeResult TradeMeter::measure(const TradePoint& point, const OnShare& onShare)
     result.key = keyOf(point);
     result.point = point;
     m_session.apply(point);
-    m_session.draw(0, false);
+    const std::optional<double> rays = countRays(point);
     const int warmup = warmupOf();
     FigureList figures;
     std::vector<double> wallMs;
@@ -331,6 +345,7 @@ TradeResult TradeMeter::measure(const TradePoint& point, const OnShare& onShare)
     result.passes = figures.passes();
     result.groups = figures.groups();
     result.figures = figures.figures();
+    if (rays) result.figures["rays"] = *rays;
     result.frameCount = wallMs.size();
     result.device = m_session.device();
     result.backend = m_session.backend();

@@ -52,6 +52,8 @@ class TradeMeter {
     class ViewTimer;
 
     size_t viewCount() const { return m_source.viewNames().size(); }
+    /// Rays of a frame of the first view, if the renderer counts any. The point is in force, with frames drawn of it.
+    std::optional<double> countRays(const TradePoint& point);
     /// How long one frame takes from its first call until its picture is here, in seconds. The point is in force.
     double timeFrame();
     /// Does the renderer's last frame depend on those before it? Yes, if it doesn't say.

@@ -1,10 +1,10 @@
 #!/bin/bash
 # What one light, denoiser and TAA are worth on a GPU, on maps with a hundred lights and more.
 #
-#   trade_maps.sh front [MAP...]   seven settings a map: a line of JSON each in $OUT/MAP.jsonl, one table of all maps, and
-#                                  whether one light with denoiser and TAA reaches SSIM 0.97 in a quarter of the time of
-#                                  all culled lights, and the front beats two settings without culling
-#   trade_maps.sh presets [MAP]    the sweep that renderer_rt/presets.def.h is made of, written there (or to PRESETS)
+#   trade_maps.sh front [MAP...]  seven settings a map: a line of JSON each in $OUT/MAP.jsonl, one table of all maps;
+#                                 whether one light with denoiser and TAA reaches SSIM 0.97 in a quarter of the time
+#                                 of all culled lights, and whether the front beats two settings without culling
+#   trade_maps.sh presets [MAP]   the sweep that renderer_rt/presets.def.h is made of, written there (or to PRESETS)
 #
 # Times are the device's own, after its clock has woken up. A killed run goes on where it stopped. Q3RT names the
 # program, OUT the folder (default: trade_maps), GAME_ARGS the game data. Smaller trials: SIZE, VIEWS, AWAKE, SCALES,
@@ -21,7 +21,8 @@ field() { # JSON NAME: the number
   grep -o "\"$2\":[-0-9.e]*" <<<"$1" | head -1 | cut -d: -f2
 }
 
-# A row a point: map, lights, settings as one word, ms on the device, ms of wall time, SSIM, its interval, the references' error.
+# A row a point: map, lights, settings as one word, ms on the device, ms of wall time, SSIM, its interval, the error of
+# the references.
 list_points() { # MAP
   while IFS= read -r line; do
     local settings ssim
@@ -57,7 +58,8 @@ judge() {
     # themselves is no difference.
     function beaten(map, which,    other) {
       for (other in name)
-        if (ms[map, other] <= ms[map, which] && ssim[map, other] >= ssim[map, which] - noise[map] && other != which) return "yes"
+        if (other != which && ms[map, other] <= ms[map, which] && ssim[map, other] >= ssim[map, which] - noise[map])
+          return "yes"
       return "no"
     }
     END {

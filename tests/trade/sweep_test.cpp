@@ -67,6 +67,8 @@ TEST(TradeCommand, MeasuresTheSmokeSweepAndGoesOnAfterACut) {
         EXPECT_EQ(json["views"].size(), 2u);
         EXPECT_EQ(json["frames"], 6);
         EXPECT_FALSE(json["passes"].empty());
+        EXPECT_GT(json["rays"], 64 * 48) << "a ray to see and one to light each pixel, at least one";
+        EXPECT_GT(json["memory_mib"], 0.0);
         EXPECT_NE(json["command"].get<std::string>().find("--smoke"), std::string::npos);
     }
     size_t references = 0;

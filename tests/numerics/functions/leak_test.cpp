@@ -152,10 +152,10 @@ TEST(Leaks, FlatAndDoubledTrianglesTakeNothingAway) {
                 raysOfCase() / 4);
 }
 
-/// In the plane of a wall, along a line of its grid: the wall at the end shares its edge, and is met. Not along the
-/// last line: a direction's zero stands for a positive one too small to see, and leaves a box by its upper face.
-TEST(Leaks, RaysAlongEdgesMeetTheWallAtTheirEnd) {
-    constexpr int kGrid = 8;
+constexpr int kGrid = 8; ///< squares along a box's edge
+
+/// A box from -1 to 1 of kGrid x kGrid squares a wall.
+Corners makeGridBox() {
     Corners box;
     for (int axis = 0; axis < 3; ++axis)
         for (const float side : {-1.0f, 1.0f})
@@ -172,10 +172,38 @@ TEST(Leaks, RaysAlongEdgesMeetTheWallAtTheirEnd) {
                                       point(x + 1, y + 1)})
                     box.push_back(p);
             }
+    return box;
+}
+
+/// From the last float in front of a wall towards it, at slopes down to 2^-40: they cross a whole wall within rounding
+/// of it, along its edges and over its corners, and meet it or the one at its end.
+TEST(Leaks, GrazingRaysStayInside) {
+    std::mt19937 random(17);
+    std::uniform_real_distribution<float> within(-255, 255);
+    size_t leaks = 0, cases = 0;
+    for (const float at : kPlaces) {
+        const vec3 centre(at, at, -at);
+        const TestScene scene = makeScene(place(makeGridBox(), 256, centre));
+        for (size_t i = 0; i < raysOfCase(); ++i, ++cases) {
+            const int axis = static_cast<int>(i % 3);
+            const float side = i % 2 == 0 ? -1.0f : 1.0f;
+            vec3 origin = centre + vec3(within(random), within(random), within(random));
+            origin[axis] = std::nextafter(centre[axis] + side * 256, centre[axis]);
+            vec3 direction = randomDirection(random);
+            direction[axis] = std::ldexp(side, -static_cast<int>(random() % 41));
+            if (!traceShader(scene, origin, direction, 0, kFar).hit) ++leaks;
+        }
+    }
+    expectCount("grazing rays, slopes down to 2^-40, that leave a box", leaks, cases);
+}
+
+/// In the plane of a wall, along a line of its grid: the wall at the end shares its edge, and is met. Not along the
+/// last line: a direction's zero stands for a positive one too small to see, and leaves a box by its upper face.
+TEST(Leaks, RaysAlongEdgesMeetTheWallAtTheirEnd) {
     size_t wrong = 0, cases = 0;
     for (const float at : kPlaces) {
         const vec3 centre(at, at, -at);
-        const TestScene scene = makeScene(place(box, 256, centre));
+        const TestScene scene = makeScene(place(makeGridBox(), 256, centre));
         for (int axis = 0; axis < 3; ++axis)
             for (int line = 0; line < kGrid; ++line)
                 for (const float towards : {-1.0f, 1.0f}) {
