@@ -22,7 +22,7 @@ field() { # JSON NAME: the number
 }
 
 # A row a point: map, lights, settings as one word, ms on the device, ms of wall time, SSIM, its interval, the error of
-# the references.
+# the references, the upper quartile of ms on the device.
 list_points() { # MAP
   while IFS= read -r line; do
     local settings ssim
@@ -35,7 +35,8 @@ list_points() { # MAP
       "$(field "$(grep -o '"gpu_ms":{[^}]*}' <<<"$line" | head -1)" median)" \
       "$(field "$(grep -o '"wall_ms":{[^}]*}' <<<"$line" | head -1)" median)" \
       "$(field "$ssim" value)" "$(field "$ssim" low)" "$(field "$ssim" high)" \
-      "$(field "$(grep -o '"reference":{[^}]*}' <<<"$line")" error)"
+      "$(field "$(grep -o '"reference":{[^}]*}' <<<"$line")" error)" \
+      "$(field "$(grep -o '"gpu_ms":{[^}]*}' <<<"$line" | head -1)" q3)"
   done <"$out/$1.jsonl"
 }
 
@@ -52,13 +53,13 @@ judge() {
     {
       printf "%-12s %6d  %-32s %9.3f %9.3f  %.4f (%.4f - %.4f)\n", $1, $2, name[$3], $4, $5, $6, $7, $8
       if (!($1 in lights)) maps[++count] = $1
-      lights[$1] = $2; ms[$1, $3] = $4; ssim[$1, $3] = $6; noise[$1] = $9
+      lights[$1] = $2; ms[$1, $3] = $4; ssim[$1, $3] = $6; noise[$1] = $9; slow[$1, $3] = $10
     }
     # Does some setting of the map beat this one in time and likeness? What is below the error of the references
-    # themselves is no difference.
+    # themselves is no difference, nor a time within the upper quartile of its own.
     function beaten(map, which,    other) {
       for (other in name)
-        if (other != which && ms[map, other] <= ms[map, which] && ssim[map, other] >= ssim[map, which] - noise[map])
+        if (other != which && ms[map, other] <= slow[map, which] && ssim[map, other] >= ssim[map, which] - noise[map])
           return "yes"
       return "no"
     }
