@@ -194,7 +194,7 @@ void repeatWarnings(const fs::path& console, const CvarList& settings) {
     std::istringstream text(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
     std::set<std::string> repeated;
     for (std::string line; std::getline(text, line);) {
-        if (line.starts_with('\x1b')) line.erase(0, line.find('m') + 1); // a colour of the terminal
+        if (line.starts_with('^')) line.erase(0, 2); // the engine's colour of warnings
         const std::string name = line.substr(0, line.find_first_of(": "));
         const bool given = std::ranges::any_of(settings, [&](const auto& setting) { return setting.first == name; });
         if (given && repeated.insert(line).second) std::fprintf(stderr, "q3rt: %s\n", line.c_str());

@@ -68,5 +68,14 @@ TEST(Demos, WhoseMapIsMissingFailsInOneLine) {
     EXPECT_TRUE(std::filesystem::is_empty(folder));
 }
 
+TEST(Demos, SettingsThatTheRendererRefusesAreSaid) {
+    if (const std::string why = whyNoEngine(Display::None); !why.empty()) GTEST_SKIP() << why;
+    const ProgramResult result = runQ3rt({"play", "--demo", "demo088-test1", "--headless", "--renderer", "vk", "--size",
+                                          "64x48", "--frames", "1", "--set", "r_display=15"});
+    if (result.errors.find("no Vulkan d") != std::string::npos) GTEST_SKIP() << result.errors;
+    EXPECT_EQ(result.exitCode, 0) << result.errors;
+    EXPECT_NE(result.errors.find("q3rt: r_display 15: "), std::string::npos) << result.errors;
+}
+
 } // namespace
 } // namespace q3rt::test
