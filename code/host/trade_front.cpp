@@ -21,9 +21,9 @@ std::string estimateText(const TradeEstimate& estimate, int digits) {
     return text;
 }
 
-std::string figureText(const TradeResult& result, const char* name) {
+std::string figureText(const TradeResult& result, const char* name, int digits) {
     const auto found = result.figures.find(name);
-    return found == result.figures.end() ? "" : formatText("%.6g", found->second);
+    return found == result.figures.end() ? "" : formatText("%.*f", digits, found->second);
 }
 
 Row makeRow(const TradeResult& result, size_t number, bool onFront, const std::string& label) {
@@ -38,8 +38,8 @@ Row makeRow(const TradeResult& result, size_t number, bool onFront, const std::s
             estimateText(result.flip, 4),
             estimateText(result.psnr, 2),
             estimateText(result.relmse, 4),
-            figureText(result, "rays"),
-            figureText(result, "memory_mib"),
+            figureText(result, "rays", 0),
+            figureText(result, "memory_mib", 1),
             label};
 }
 
