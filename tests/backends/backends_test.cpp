@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "host/map_stage.hpp"
+#include "support/backend_time.hpp"
 #include "support/game_data.hpp"
 
 namespace q3rt::test {
@@ -54,6 +55,7 @@ HostFrame draw(HeadlessEngine& engine, const MapStage& stage, const View& view) 
 
 /// Nothing, with a reason, if the device lacks what the back end needs.
 std::optional<Pictures> drawWith(const char* backend, Pk3FileSource& files, const View& view, std::string& reason) {
+    const BackendTime time(backend);
     try {
         HeadlessEngine engine(files);
         engine.showsMessages = false;

@@ -41,6 +41,11 @@ TraceHarness::TraceHarness(FileSource& files, const std::filesystem::path& modul
     m_engine.loadModule(module);
 }
 
+void TraceHarness::set(const std::string& cvar, const std::string& value) {
+    m_engine.cvars.preset(cvar, value);
+    if (cvar == "rt_backend") m_time.setBackend(value);
+}
+
 void TraceHarness::loadMap(const std::string& name) {
     m_engine.beginRegistration();
     const char* file = name.c_str();

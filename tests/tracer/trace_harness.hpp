@@ -8,6 +8,7 @@
 #include "formats/image.hpp"
 #include "host/headless/headless_engine.hpp"
 #include "math/vector.hpp"
+#include "support/backend_time.hpp"
 
 namespace q3rt::test {
 
@@ -23,7 +24,7 @@ class TraceHarness {
   public:
     /// `files` outlives this. Throws if the module can't start (no device).
     TraceHarness(FileSource& files, const std::filesystem::path& module, int width, int height);
-    void set(const std::string& cvar, const std::string& value) { m_engine.cvars.preset(cvar, value); }
+    void set(const std::string& cvar, const std::string& value);
     void loadMap(const std::string& name);
     /// Of every view drawn from now on.
     void setEntities(std::vector<refEntity_t> entities) { m_entities = std::move(entities); }
@@ -52,6 +53,7 @@ class TraceHarness {
   private:
     void submit(const Camera& camera);
 
+    BackendTime m_time{"compute"};
     HeadlessEngine m_engine;
     std::vector<refEntity_t> m_entities;
     std::vector<Quad> m_quads;
