@@ -1,6 +1,7 @@
 // Plain shading of one pixel: the closest solid, white and opaque whatever it is made of, in the light of one ray
 // toward one light that may shine on it. Two searches and what they ask for: what tracing costs by itself. Pixels of a
-// block draw the same light, so that their rays stay together (on an H200 a third less time); each pixel's mean is exact.
+// block draw the same light, so that their rays stay together (on an H200 a third less time); each pixel's mean is
+// exact.
 #ifndef Q3RT_RT_PLAIN_GLSL
 #define Q3RT_RT_PLAIN_GLSL
 #include "lib/ray.glsl"
