@@ -9,7 +9,7 @@
 namespace q3rt {
 
 /// `title` says what was measured on what, `command` by which command line. Presets are points of the front
-/// from SSIM 0.9 on, or of all of it if none is so near: the most accurate that is as fast as its fastest (within that
+/// from SSIM 0.97 on, or of all of it if none is so near: the most accurate that is as fast as its fastest (within that
 /// one's upper quartile), the most accurate of all, and the most accurate within the first and the second third of the
 /// logarithm of time between them. Levels are the front of the
 /// points with denoiser, TAA, the best culling and a number of lights, which differ in lights, depth and scale alone: a
