@@ -1,7 +1,5 @@
 // Plain shading of one pixel: the closest solid, white and opaque whatever it is made of, in the light of one ray
-// toward one light that may shine on it. Two searches and what they ask for: what tracing costs by itself. Pixels of a
-// block draw the same light, so that their rays stay together (on an H200 a third less time); each pixel's mean is
-// exact.
+// toward one light that may shine on it. Two searches and what they ask for: what tracing costs by itself.
 #ifndef Q3RT_RT_PLAIN_GLSL
 #define Q3RT_RT_PLAIN_GLSL
 #include "lib/ray.glsl"
@@ -32,8 +30,6 @@ ShadingPoint findPlainPoint(Hit hit, vec3 direction)
     return point;
 }
 
-const uint kPlainBlock = 8u; // pixels, as wide as a work group
-
 // One of the row's lights, or one of those in no row, as if it alone gave the light of all.
 LightSample drawPlainLight(ShadingPoint point, uvec4 bits)
 {
@@ -62,9 +58,7 @@ void plainPixel(uvec2 pixelPosition)
     vec3 light = vec3(0.0);
     if (hit.t > 0.0) {
         ShadingPoint point = findPlainPoint(hit, direction);
-        uvec4 ownBits = randomBits(randomKey(pixelPosition), kDimensionChoice);
-        uvec4 blockBits = randomBits(randomKey(pixelPosition / kPlainBlock), kDimensionChoice);
-        LightSample lit = drawPlainLight(point, uvec4(ownBits.xy, blockBits.zw));
+        LightSample lit = drawPlainLight(point, randomBits(randomKey(pixelPosition), kDimensionChoice));
         light = shadowed(point, lit) / kWhiteIrradiance;
     }
     vec3 shown = clampKeepingHue(light * (rtFrame.lightScale * rtFrame.exposure));
