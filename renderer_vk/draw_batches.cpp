@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "renderer_vk/patch_lod.hpp"
+#include "renderer_vk/stage_passes.hpp"
 #include "renderer_vk/view_work.hpp"
 
 namespace q3rt {
@@ -24,11 +25,11 @@ bool coversWhatIsBehind(const Material& material) {
            first.alphaTest == AlphaTest::None;
 }
 
-StageState pictureStage(TextureId texture, float brightness) {
+StageState boxStage(TextureId texture, float brightness) {
     StageState state{};
     for (TextureUnitState& unit : state.unit)
         unit.texture = texture;
-    state.unit[0].coord = kCoordTexture;
+    state.unit[0].coord = kCoordLightmap; // where a sky's box has its own
     state.unit[0].clamped = 1;
     state.color = vec4(vec3(brightness), 1.0f);
     state.rgbGen = kColorConstant;
@@ -204,9 +205,7 @@ void DrawListBuilder::appendBatch(ViewWork& work, size_t firstItem, size_t lastI
     if (work.settings.raster.r_shownormals != 0) appendNormals(work, batch);
 }
 
-void DrawListBuilder::appendSky(ViewWork& work, const Material& material, MaterialId id, size_t firstItem,
-                                size_t lastItem) {
-    work.skyDrawn = true;
+SkyCoverage DrawListBuilder::findSkyCoverage(ViewWork& work, size_t firstItem, size_t lastItem) {
     SkyCoverage coverage;
     coverage.clear();
     const vec3& eye = work.view.eye.origin;
@@ -219,38 +218,50 @@ void DrawListBuilder::appendSky(ViewWork& work, const Material& material, Materi
         coverage.addTriangle(at(0), at(1), at(2));
     }
     work.out.indices.resize(firstIndex);
+    return coverage;
+}
 
+void DrawListBuilder::appendSky(ViewWork& work, const Material& material, MaterialId id, size_t firstItem,
+                                size_t lastItem) {
+    work.skyDrawn = true;
+    const SkyCoverage coverage = findSkyCoverage(work, firstItem, lastItem);
     DrawBatch batch;
     batch.material = id;
     batch.source = VertexSource::Dynamic;
     batch.depthRange = work.settings.raster.r_showsky != 0 ? DepthRange::Near : DepthRange::Far;
     batch.entity = entityIndex(work, 0);
     const float halfSize = work.view.farQu / kSkyPart;
-    if (material.sky.hasBox) {
-        for (int face = 0; face < kSkyFaces; ++face) {
-            const SkyFaceRange range =
-                appendSkyFace(coverage, face, eye, halfSize, false, 0, work.out.vertices, work.out.indices);
-            if (range.indexCount == 0) continue;
-            // Images are in the order rt lf bk ft up dn, as the faces are.
-            batch.own = OwnDraw::SkyBox;
-            batch.stages = {kOwnStageBit | static_cast<uint32_t>(work.out.ownStages.size()), 1};
-            work.out.ownStages.push_back(
-                pictureStage(material.sky.box[static_cast<size_t>(face)], m_stages.identityLight()));
-            batch.firstIndex = range.firstIndex;
-            batch.indexCount = range.indexCount;
-            work.out.batches.push_back(batch);
-        }
+    std::array<SkyFaceRange, kSkyFaces> faces;
+    for (int face = 0; face < (material.sky.hasBox ? kSkyFaces : kSkyCloudFaces); ++face)
+        faces[static_cast<size_t>(face)] =
+            appendSkyFace(coverage, face, work.view.eye.origin, halfSize, m_materials.lastCloudHeight,
+                          work.out.vertices, work.out.indices);
+    const int fog = fogIndex(work, work.items[firstItem].fog);
+    StageRange clouds;
+    if (!material.stages.empty()) clouds = m_stages.evaluate(id, work.geometry.entities[0].stage);
+    const bool inOnePass = material.sky.hasBox && fog < 0 && work.settings.raster.r_mergeStages != 0 &&
+                           findCloudLayers(material.stages).has_value();
+    for (size_t face = 0; material.sky.hasBox && face < kSkyFaces; ++face) {
+        if (faces[face].indexCount == 0) continue;
+        // Images are in the order rt lf bk ft up dn, as the faces are.
+        batch.own = OwnDraw::SkyBox;
+        batch.stages = {kOwnStageBit | static_cast<uint32_t>(work.out.ownStages.size()), 1};
+        if (inOnePass && face < kSkyCloudFaces) batch.clouds = clouds;
+        work.out.ownStages.push_back(boxStage(material.sky.box[face], m_stages.identityLight()));
+        batch.firstIndex = faces[face].firstIndex;
+        batch.indexCount = faces[face].indexCount;
+        work.out.batches.push_back(batch);
+        batch.clouds = {};
     }
-    if (material.stages.empty()) return;
+    if (clouds.count == 0 || inOnePass) return;
     batch.own = OwnDraw::None;
-    batch.firstIndex = static_cast<uint32_t>(work.out.indices.size());
-    for (int face = 0; face < kSkyCloudFaces; ++face)
-        appendSkyFace(coverage, face, eye, halfSize, true, m_materials.lastCloudHeight, work.out.vertices,
-                      work.out.indices);
-    batch.indexCount = static_cast<uint32_t>(work.out.indices.size()) - batch.firstIndex;
+    batch.firstIndex = faces[0].firstIndex;
+    batch.indexCount = 0;
+    for (size_t face = 0; face < kSkyCloudFaces; ++face)
+        batch.indexCount += faces[face].indexCount;
     if (batch.indexCount == 0) return;
-    batch.stages = m_stages.evaluate(id, work.geometry.entities[0].stage);
-    batch.fog = fogIndex(work, work.items[firstItem].fog);
+    batch.stages = clouds;
+    batch.fog = fog;
     work.out.batches.push_back(batch);
 }
 

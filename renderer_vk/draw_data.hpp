@@ -39,6 +39,7 @@ struct DrawBatch {
     MaterialId material = 0;     ///< the one that is drawn (remapped)
     StageRange stages;           ///< first may have kOwnStageBit
     OwnDraw own = OwnDraw::None; ///< draw with this state, not with the material's stages
+    StageRange clouds;           ///< laid over a sky box in its pass
     bool depthFirst = false;     ///< its depth may be drawn before everything else of the view
     VertexSource source = VertexSource::World;
     DepthRange depthRange = DepthRange::Normal;

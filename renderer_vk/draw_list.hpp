@@ -77,6 +77,7 @@ class DrawListBuilder {
     ViewMemory& memoryOf(int portalDepth);
     void makeBatches(ViewWork& work);
     void appendBatch(ViewWork& work, size_t firstItem, size_t lastItem);
+    SkyCoverage findSkyCoverage(ViewWork& work, size_t firstItem, size_t lastItem);
     void appendSky(ViewWork& work, const Material& material, MaterialId id, size_t firstItem, size_t lastItem);
     void appendShadowVolumes(ViewWork& work);
     void appendShadowShade(ViewWork& work);

@@ -72,6 +72,11 @@ VkColorComponentFlags writeMaskOf(const StateKey& key) {
     return VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT;
 }
 
+uint32_t layerWord(const LayerState& layer) {
+    return static_cast<uint32_t>(layer.source) | static_cast<uint32_t>(layer.destination) << kLayerDestinationShift |
+           static_cast<uint32_t>(layer.alphaTest) << kLayerTestShift | (layer.white ? kLayerWhite : 0u);
+}
+
 std::optional<VkStencilOpState> stencilState(StencilUse use) {
     constexpr uint32_t kAll = 0xff;
     if (use == StencilUse::None) return std::nullopt;
@@ -98,6 +103,13 @@ StateKey stageKey(const Stage& stage, bool clipped) {
     key.combine = stage.combine;
     key.pass = kPassStage;
     key.clipped = clipped;
+    return key;
+}
+
+StateKey passKey(const std::vector<Stage>& stages, const StagePass& pass, bool clipped) {
+    StateKey key = stageKey(stages[pass.firstStage], clipped);
+    key.layerCount = static_cast<uint8_t>(pass.stageCount);
+    key.layers = pass.layers;
     return key;
 }
 
@@ -185,10 +197,14 @@ StateKey normalsKey(bool clipped) {
     return key;
 }
 
-StateKey skyBoxKey(bool clipped) {
+StateKey skyBoxKey(bool clipped, const std::vector<Stage>& clouds) {
     StateKey key;
     key.depthWrite = false;
     key.clipped = clipped;
+    if (const auto layers = findCloudLayers(clouds)) {
+        key.layers = *layers;
+        key.layerCount = static_cast<uint8_t>(1 + clouds.size());
+    }
     return key;
 }
 
@@ -208,10 +224,17 @@ void PipelineSet::setGreyscale(float amount) {
 const GraphicsPipeline& PipelineSet::find(const StateKey& key) {
     if (const auto known = m_pipelines.find(key); known != m_pipelines.end()) return known->second;
     // The vertex shader branches on the stage's data: equal code for all pipelines of a pass is compiled once.
-    const std::vector<uint32_t> vertexConstants = {key.pass, 0, 0, key.clipped ? 1u : 0u,
-                                                   std::bit_cast<uint32_t>(m_greyscale)};
-    const std::vector<uint32_t> constants = {key.pass, static_cast<uint32_t>(key.combine),
-                                             static_cast<uint32_t>(key.alphaTest), key.clipped ? 1u : 0u};
+    const std::vector<uint32_t> vertexConstants = {
+        key.pass, 0, 0, key.clipped ? 1u : 0u, std::bit_cast<uint32_t>(m_greyscale), key.layerCount};
+    const std::vector<uint32_t> constants = {key.pass,
+                                             static_cast<uint32_t>(key.combine),
+                                             static_cast<uint32_t>(key.alphaTest),
+                                             key.clipped ? 1u : 0u,
+                                             0,
+                                             key.layerCount,
+                                             layerWord(key.layers[0]),
+                                             layerWord(key.layers[1]),
+                                             layerWord(key.layers[2])};
     GraphicsPipelineInfo info;
     info.name = "raster";
     info.vertex = {shaders::vk_raster_vert, vertexConstants};
@@ -234,7 +257,8 @@ const GraphicsPipeline& PipelineSet::find(const StateKey& key) {
     return m_pipelines.emplace(key, GraphicsPipeline(m_device, info)).first->second;
 }
 
-std::vector<StateKey> PipelineSet::statesOf(const MaterialLibrary& materials, bool clipped, MaterialId flare) const {
+std::vector<StateKey> PipelineSet::statesOf(const MaterialLibrary& materials, bool clipped, MaterialId flare,
+                                            bool mergeStages) const {
     std::set<StateKey> states = {depthKey(), overlayKey(), shadowShadeKey(), flareTestKey()};
     for (const Stage& stage : materials.get(flare).stages)
         states.insert(flareKey(stage));
@@ -246,9 +270,13 @@ std::vector<StateKey> PipelineSet::statesOf(const MaterialLibrary& materials, bo
         if (m_device.capabilities().fillModeNonSolid) states.insert(edgesKey(clips));
     }
     for (size_t i = 0; i < materials.count(); ++i) {
-        for (const Stage& stage : materials.get(static_cast<MaterialId>(i)).stages) {
-            states.insert(stageKey(stage, false));
-            if (clipped) states.insert(stageKey(stage, true));
+        const Material& material = materials.get(static_cast<MaterialId>(i));
+        const std::vector<Stage>& stages = material.stages;
+        if (material.isSky && mergeStages) states.insert(skyBoxKey(false, stages));
+        if (material.isSky && mergeStages && clipped) states.insert(skyBoxKey(true, stages));
+        for (const StagePass& pass : findStagePasses(stages, mergeStages)) {
+            states.insert(passKey(stages, pass, false));
+            if (clipped) states.insert(passKey(stages, pass, true));
         }
     }
     return {states.begin(), states.end()};

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "gpu/graphics_pipeline.hpp"
-#include "scene/material.hpp"
+#include "renderer_vk/stage_passes.hpp"
 
 namespace q3rt {
 
@@ -18,7 +18,9 @@ struct StateKey {
     bool depthWrite = true;
     AlphaTest alphaTest = AlphaTest::None;
     Combine combine = Combine::Single;
-    uint8_t pass = 0; ///< kPass*
+    uint8_t pass = 0;       ///< kPass*
+    uint8_t layerCount = 1; ///< stages in the pass
+    LayerStates layers;     ///< those after the first
     StencilUse stencil = StencilUse::None;
     bool lines = false;    ///< edges of the triangles
     bool segments = false; ///< pairs of vertices
@@ -27,6 +29,8 @@ struct StateKey {
 };
 
 StateKey stageKey(const Stage& stage, bool clipped);
+/// Of a material's stages that share a pass.
+StateKey passKey(const std::vector<Stage>& stages, const StagePass& pass, bool clipped);
 StateKey lightKey(bool additive, bool clipped);
 StateKey fogKey(bool depthEqual, bool clipped);
 /// Alpha-blended picture without depth: cinematics.
@@ -45,8 +49,8 @@ StateKey flareTestKey();
 StateKey edgesKey(bool clipped);
 /// White lines over everything: r_shownormals.
 StateKey normalsKey(bool clipped);
-/// Opaque, no depth write: sky boxes.
-StateKey skyBoxKey(bool clipped);
+/// Opaque, no depth write: sky boxes, with the clouds that share their pass.
+StateKey skyBoxKey(bool clipped, const std::vector<Stage>& clouds = {});
 
 class PipelineSet {
   public:
@@ -57,7 +61,8 @@ class PipelineSet {
     void setGreyscale(float amount);
     /// Every state that drawing these materials needs; `clipped` also those for portal views, `flare` is that of
     /// flares.
-    std::vector<StateKey> statesOf(const MaterialLibrary& materials, bool clipped, MaterialId flare) const;
+    std::vector<StateKey> statesOf(const MaterialLibrary& materials, bool clipped, MaterialId flare,
+                                   bool mergeStages) const;
     bool known(const StateKey& key) const { return m_pipelines.contains(key); }
     size_t size() const { return m_pipelines.size(); }
 

@@ -99,6 +99,7 @@ void RasterScene::setContent(const MaterialLibrary& materials, const ModelLibrar
     m_models = &models;
     m_stages = &stages;
     m_pipelines.setGreyscale(greyscale);
+    m_stagePasses.clear();
     setWorld(nullptr);
 }
 
@@ -135,6 +136,9 @@ void RasterScene::beginFrame(const RasterSettings& settings) {
         logLineOnce(LogLevel::Warning, "r_showtris: %s can't draw edges",
                     m_context.device().capabilities().deviceName.c_str());
     }
+    const bool mergeStages = settings.r_mergeStages != 0;
+    if (mergeStages != m_mergeStages) m_stagePasses.clear();
+    m_mergeStages = mergeStages;
     m_data.clear();
     m_runs.clear();
     const uint32_t slot = m_context.ring().slot();
@@ -329,6 +333,14 @@ void RasterScene::recordEdges(VkCommandBuffer commands, const ViewDraw& view, Dr
     draw(commands, edgesKey(view.clipped), constants, batch, false, m_materials->get(batch.material).cull, view);
 }
 
+const std::vector<StagePass>& RasterScene::stagePasses(MaterialId id) {
+    while (m_stagePasses.size() <= id) {
+        const auto next = static_cast<MaterialId>(m_stagePasses.size());
+        m_stagePasses.push_back(findStagePasses(m_materials->get(next).stages, m_mergeStages));
+    }
+    return m_stagePasses[id];
+}
+
 void RasterScene::recordBatch(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch) {
     const Material& material = m_materials->get(batch.material);
     RasterDraw constants{};
@@ -338,11 +350,13 @@ void RasterScene::recordBatch(VkCommandBuffer commands, const ViewDraw& view, co
         return;
     }
     if (batch.fog >= 0) constants.fog = static_cast<uint32_t>(batch.fog);
-    const auto stageCount = std::min<size_t>(material.stages.size(), batch.stages.count);
-    for (size_t i = 0; i < stageCount; ++i) {
-        constants.stage = batch.stages.first + static_cast<uint32_t>(i);
-        constants.useFog = batch.fog >= 0 && material.stages[i].fogFade != FogFade::None ? 1 : 0;
-        draw(commands, stageKey(material.stages[i], view.clipped), constants, batch, material.polygonOffset,
+    for (const StagePass& pass : stagePasses(batch.material)) {
+        const Stage& first = material.stages[pass.firstStage];
+        constants.stage = batch.stages.first + pass.firstStage;
+        constants.layerStage = constants.stage + 1;
+        if (pass.stageCount == 1 && changesNothing(first, m_stages->states()[constants.stage])) continue;
+        constants.useFog = batch.fog >= 0 && first.fogFade != FogFade::None ? 1 : 0;
+        draw(commands, passKey(material.stages, pass, view.clipped), constants, batch, material.polygonOffset,
              material.cull, view);
     }
     constants.useFog = 0;
@@ -389,7 +403,11 @@ void RasterScene::recordOwn(VkCommandBuffer commands, const ViewDraw& view, cons
     constants.stage = m_tableStageCount + (batch.stages.first & ~kOwnStageBit);
     switch (batch.own) {
     case OwnDraw::SkyBox:
-        draw(commands, skyBoxKey(view.clipped), constants, batch, false, CullMode::Front, view);
+        constants.layerStage = batch.clouds.first;
+        draw(commands,
+             batch.clouds.count > 0 ? skyBoxKey(view.clipped, m_materials->get(batch.material).stages)
+                                    : skyBoxKey(view.clipped),
+             constants, batch, false, CullMode::Front, view);
         break;
     case OwnDraw::ShadowVolume:
         draw(commands, shadowVolumeKey(true, view.clipped), constants, batch, false, CullMode::Back, view);

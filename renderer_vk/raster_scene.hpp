@@ -78,6 +78,7 @@ class RasterScene {
     void readFlareTests(uint32_t slot);
     void recordEdges(VkCommandBuffer commands, const ViewDraw& view, DrawBatch batch);
     void recordBatch(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch);
+    const std::vector<StagePass>& stagePasses(MaterialId id);
     void recordOwn(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch, RasterDraw constants);
     void draw(VkCommandBuffer commands, const StateKey& key, const RasterDraw& constants, const DrawBatch& batch,
               bool polygonOffset, CullMode cull, const ViewDraw& view);
@@ -112,7 +113,9 @@ class RasterScene {
     std::vector<ViewRun> m_runs; ///< a pass each
     size_t m_graphPasses = 0;    ///< when the last of them had been added
     OcclusionQueries m_flareQueries;
-    std::vector<std::vector<FlareKey>> m_askedFlares; ///< by slot of the ring
+    std::vector<std::vector<FlareKey>> m_askedFlares;  ///< by slot of the ring
+    std::vector<std::vector<StagePass>> m_stagePasses; ///< by material, as far as they were asked for
+    bool m_mergeStages = true;
     bool m_depthFirst = false, m_showEdges = false;
     uint32_t m_edgeStage = 0; ///< of FrameDrawData::ownStages
     float m_debugSort = 0;

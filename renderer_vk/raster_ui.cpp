@@ -110,7 +110,7 @@ void RasterScene::addUi(FrameGraph& graph, FrameTargets& targets, std::span<cons
 void RasterScene::warmPipelines(MaterialId flare) {
     if (!m_materials) return;
     std::vector<StateKey> fresh;
-    for (const StateKey& key : m_pipelines.statesOf(*m_materials, m_worldHasPortals, flare))
+    for (const StateKey& key : m_pipelines.statesOf(*m_materials, m_worldHasPortals, flare, m_mergeStages))
         if (!m_pipelines.known(key)) fresh.push_back(key);
     if (fresh.empty()) return;
     logLine(LogLevel::Developer, "%zu raster pipelines to compile", fresh.size());

@@ -119,7 +119,7 @@ vec2 cloudCoordinates(const vec3& direction, float heightQu) {
     return vec2(std::acos(q.x), std::acos(q.y));
 }
 
-SkyFaceRange appendSkyFace(const SkyCoverage& coverage, int face, const vec3& eye, float halfSizeQu, bool clouds,
+SkyFaceRange appendSkyFace(const SkyCoverage& coverage, int face, const vec3& eye, float halfSizeQu,
                            float cloudHeightQu, std::vector<Vertex>& vertices, std::vector<uint32_t>& indices) {
     const SkyCoverage::BlockRange range = coverage.blocks(face);
     SkyFaceRange result{static_cast<uint32_t>(indices.size()), 0};
@@ -132,8 +132,8 @@ SkyFaceRange appendSkyFace(const SkyCoverage& coverage, int face, const vec3& ey
             const vec3 direction = skyDirection(face, fs, ft);
             Vertex vertex{};
             vertex.position = eye + direction * halfSizeQu;
-            vertex.st =
-                clouds ? cloudCoordinates(direction, cloudHeightQu) : vec2((fs + 1) * 0.5f, 1 - (ft + 1) * 0.5f);
+            vertex.st = cloudCoordinates(direction, cloudHeightQu);
+            vertex.lightmapSt = vec2((fs + 1) * 0.5f, 1 - (ft + 1) * 0.5f);
             vertex.color = 0xFFFFFFFFu;
             vertices.push_back(vertex);
         }

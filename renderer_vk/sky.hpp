@@ -44,9 +44,9 @@ vec2 cloudCoordinates(const vec3& direction, float heightQu);
 struct SkyFaceRange {
     uint32_t firstIndex = 0, indexCount = 0;
 };
-/// Appends the covered blocks of a face at `eye` + direction * halfSizeQu. Box faces get 0..1 picture coordinates,
-/// cloud faces those of the cloud layer.
-SkyFaceRange appendSkyFace(const SkyCoverage& coverage, int face, const vec3& eye, float halfSizeQu, bool clouds,
+/// Appends the covered blocks of a face at `eye` + direction * halfSizeQu. Texture coordinates are those of the cloud
+/// layer, lightmap coordinates 0..1 those of the box's picture.
+SkyFaceRange appendSkyFace(const SkyCoverage& coverage, int face, const vec3& eye, float halfSizeQu,
                            float cloudHeightQu, std::vector<Vertex>& vertices, std::vector<uint32_t>& indices);
 
 } // namespace q3rt

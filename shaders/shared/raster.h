@@ -9,6 +9,12 @@ SHARED_CONST kPassLight = 1u; // a dynamic light over it
 SHARED_CONST kPassFog = 2u;   // fog over it
 SHARED_CONST kPassDepth = 3u; // depth alone, before all
 
+// A stage that is laid over the first of its pass, in one word: source factor, destination factor, alpha test (values
+// of stage.h), whether its colour is 1 everywhere.
+SHARED_CONST kLayerDestinationShift = 4u;
+SHARED_CONST kLayerTestShift = 8u;
+SHARED_CONST kLayerWhite = 1024u;
+
 // An entity in one view; the world is one of them.
 struct RasterEntity {
     mat4 clipFromModel;
@@ -56,7 +62,7 @@ struct RasterDraw {
     uint light; // kPassLight: index of the light
     uint fog;   // index of the fog; used if useFog
     uint useFog;
-    uint reserved0;
+    uint layerStage; // of the first layer over `stage`; the others follow
     uint reserved1;
 };
 

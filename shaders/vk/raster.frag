@@ -1,4 +1,4 @@
-// Colour of every raster draw: texture x colour, alpha test.
+// Colour of every raster draw: texture x colour, alpha test, the layers over it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
@@ -12,7 +12,14 @@ layout(location = 1) in vec2 inSt0;
 layout(location = 2) in vec2 inSt1;
 layout(location = 3) in float inClip;
 layout(location = 4) flat in uvec2 inTextures; // equal all over a draw
+layout(location = 5) flat in uvec3 inLayerTextures;
+layout(location = 6) in vec4 inLayerColor[3];
+layout(location = 9) in vec2 inLayerSt[3];
 layout(location = 0) out vec4 outColor;
+
+layout(constant_id = 6) const uint kLayer1 = 0u; // kLayer*
+layout(constant_id = 7) const uint kLayer2 = 0u;
+layout(constant_id = 8) const uint kLayer3 = 0u;
 
 // Fixed ids of the texture library.
 const uint kTextureDlight = 3u;
@@ -26,11 +33,45 @@ vec4 stageColor() {
     return vec4(min(vec3(1.0), first.rgb * inColor.rgb + second.rgb), first.a * second.a * inColor.a);
 }
 
-bool alphaPasses(float alpha) {
-    if (kAlphaTest == kTestGreater0) return alpha > 0.0;
-    if (kAlphaTest == kTestLess128) return alpha < 0.5;
-    if (kAlphaTest == kTestGreaterEqual128) return alpha >= 0.5;
+bool alphaPasses(uint test, float alpha) {
+    if (test == kTestGreater0) return alpha > 0.0;
+    if (test == kTestLess128) return alpha < 0.5;
+    if (test == kTestGreaterEqual128) return alpha >= 0.5;
     return true;
+}
+
+// Layers are blended in whole bytes, 0 to 255, as a frame buffer of bytes does it.
+vec4 toBytes(vec4 color) { return floor(clamp(color, 0.0, 1.0) * 255.0 + 0.5); }
+vec3 multiplyBytes(vec3 a, vec3 b) { return floor(a * b * (1.0 / 255.0) + 0.5); }
+
+// Part of `color` that a blend factor keeps. The frame buffer's alpha is 1.
+vec3 blendPart(vec3 color, uint factor, vec4 source, vec3 destination) {
+    if (factor == kBlendZero || factor == kBlendOneMinusDstAlpha || factor == kBlendSrcAlphaSaturate) return vec3(0.0);
+    if (factor == kBlendSrcColor) return multiplyBytes(color, source.rgb);
+    if (factor == kBlendOneMinusSrcColor) return multiplyBytes(color, 255.0 - source.rgb);
+    if (factor == kBlendDstColor) return multiplyBytes(color, destination);
+    if (factor == kBlendOneMinusDstColor) return multiplyBytes(color, 255.0 - destination);
+    if (factor == kBlendSrcAlpha) return multiplyBytes(color, source.aaa);
+    if (factor == kBlendOneMinusSrcAlpha) return multiplyBytes(color, 255.0 - source.aaa);
+    return color;
+}
+
+vec3 layOver(vec3 below, uint state, uint number, vec2 st, vec4 color) {
+    vec4 exact = texture(textures[number], st);
+    if ((state & kLayerWhite) == 0u) exact *= color;
+    vec4 source = toBytes(exact);
+    vec3 blended = blendPart(source.rgb, state & 15u, source, below) +
+                   blendPart(below, (state >> kLayerDestinationShift) & 15u, source, below);
+    bool passes = alphaPasses((state >> kLayerTestShift) & 3u, exact.a);
+    return passes ? min(blended, 255.0) : below;
+}
+
+vec3 layersOver(vec4 first) {
+    vec3 color = toBytes(first).rgb;
+    color = layOver(color, kLayer1, inLayerTextures.x, inLayerSt[0], inLayerColor[0]);
+    if (kLayers > 2u) color = layOver(color, kLayer2, inLayerTextures.y, inLayerSt[1], inLayerColor[1]);
+    if (kLayers > 3u) color = layOver(color, kLayer3, inLayerTextures.z, inLayerSt[2], inLayerColor[2]);
+    return color / 255.0;
 }
 
 void main() {
@@ -40,6 +81,7 @@ void main() {
         outColor = texture(textures[kTextureDlight], inSt0) * inColor;
     else
         outColor = texture(textures[kTextureFog], inSt0) * inColor;
+    if (kLayers > 1u) outColor.rgb = layersOver(outColor); // before pixels end: they have parts in derivatives
     if (kClipped != 0u && inClip < 0.0) discard;
-    if (kAlphaTest != kTestNone && !alphaPasses(outColor.a)) discard;
+    if (kAlphaTest != kTestNone && !alphaPasses(kAlphaTest, outColor.a)) discard;
 }

@@ -17,9 +17,18 @@ layout(location = 1) out vec2 outSt0;
 layout(location = 2) out vec2 outSt1;
 layout(location = 3) out float outClip;
 layout(location = 4) flat out uvec2 outTextures;
+layout(location = 5) flat out uvec3 outLayerTextures;
+layout(location = 6) out vec4 outLayerColor[3];
+layout(location = 9) out vec2 outLayerSt[3];
 invariant gl_Position;
 
 layout(constant_id = 4) const float kGreyscale = 0.0; // of all colours, [0, 1]
+
+vec3 towardGrey(vec3 color) {
+    if (kGreyscale == 0.0) return color;
+    float luma = floor(dot(color * 255.0, vec3(0.2126, 0.7152, 0.0722)) + 0.001) / 255.0;
+    return mix(color, vec3(luma), kGreyscale);
+}
 
 vec3 worldPosition() {
     vec4 p = vec4(inPosition, 1.0);
@@ -27,13 +36,26 @@ vec3 worldPosition() {
                 dot(entities[draw.entity].worldRow2, p));
 }
 
+vec4 generateColor(uint stage) {
+    vec3 rgb = generateRgb(stages[stage].rgbGen, stages[stage].color.rgb, inColor, inNormal, entities[draw.entity]);
+    float alpha = generateAlpha(stages[stage].alphaGen, stages[stage].color.a, inColor, inPosition, inNormal,
+                                stages[stage].portalRange, entities[draw.entity]);
+    return vec4(rgb, alpha);
+}
+
+// A stage after the first of the pass.
+void generateLayer(uint layer) {
+    uint stage = draw.layerStage + layer - 1u;
+    outLayerColor[layer - 1u] = generateColor(stage);
+    outLayerTextures[layer - 1u] = stages[stage].unit[0].texture;
+    outLayerSt[layer - 1u] = unitCoordinates(stage, 0u, inPosition, inNormal, inSt, inLightmapSt,
+                                             entities[draw.entity].eyeInModel);
+}
+
 void generateStage() {
     uint stage = draw.stage;
     vec3 eye = entities[draw.entity].eyeInModel;
-    outColor.rgb =
-        generateRgb(stages[stage].rgbGen, stages[stage].color.rgb, inColor, inNormal, entities[draw.entity]);
-    outColor.a = generateAlpha(stages[stage].alphaGen, stages[stage].color.a, inColor, inPosition, inNormal,
-                               stages[stage].portalRange, entities[draw.entity]);
+    outColor = generateColor(stage);
     if (draw.useFog != 0u) {
         float keep = 1.0 - fogDensity(fogCoordinates(draw.fog, worldPosition()));
         uint fade = stages[stage].fogFade;
@@ -44,6 +66,9 @@ void generateStage() {
     outSt0 = unitCoordinates(stage, 0u, inPosition, inNormal, inSt, inLightmapSt, eye);
     if (stages[stage].combine != kCombineSingle)
         outSt1 = unitCoordinates(stage, 1u, inPosition, inNormal, inSt, inLightmapSt, eye);
+    if (kLayers > 1u) generateLayer(1u);
+    if (kLayers > 2u) generateLayer(2u);
+    if (kLayers > 3u) generateLayer(3u);
 }
 
 // The light's picture lies in the x, y plane of the surface's own space, whatever way the wall faces.
@@ -76,8 +101,8 @@ void main() {
         outColor = vec4(fogs[draw.fog].color, 1.0);
         outSt0 = fogCoordinates(draw.fog, worldPosition());
     }
-    if (kGreyscale > 0.0) {
-        float luma = floor(dot(outColor.rgb * 255.0, vec3(0.2126, 0.7152, 0.0722)) + 0.001) / 255.0;
-        outColor.rgb = mix(outColor.rgb, vec3(luma), kGreyscale);
-    }
+    outColor.rgb = towardGrey(outColor.rgb);
+    if (kLayers > 1u) outLayerColor[0].rgb = towardGrey(outLayerColor[0].rgb);
+    if (kLayers > 2u) outLayerColor[1].rgb = towardGrey(outLayerColor[1].rgb);
+    if (kLayers > 3u) outLayerColor[2].rgb = towardGrey(outLayerColor[2].rgb);
 }

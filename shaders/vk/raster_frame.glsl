@@ -12,3 +12,4 @@ layout(constant_id = 0) const uint kPass = 0u;      // kPass*
 layout(constant_id = 1) const uint kCombine = 0u;   // kCombine*
 layout(constant_id = 2) const uint kAlphaTest = 0u; // kTest*
 layout(constant_id = 3) const uint kClipped = 0u;   // 1: portal view
+layout(constant_id = 5) const uint kLayers = 1u;    // stages in this pass

@@ -59,6 +59,13 @@ void checkSettingsOfPlay(TestRenderer& renderer, TestServices& services, const S
     services.setCvar("r_stereoSeparation", "64");
 }
 
+int largestDifference(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
+    int largest = 0;
+    for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+        largest = std::max(largest, std::abs(int{a[i]} - int{b[i]}));
+    return largest;
+}
+
 TEST(RasterDraw, MapIsDrawnWithoutValidationMessages) {
     Q3RT_OPEN_GAME_DATA_OR_SKIP(files);
     setenv("Q3RT_VALIDATION", "1", 1);
@@ -104,6 +111,10 @@ TEST(RasterDraw, MapIsDrawnWithoutValidationMessages) {
     }
     services.setCvar("r_depthFirst", "0");
     EXPECT_EQ(first, drawFrame(renderer, services, view, shader)) << "depth first changes the picture";
+    services.setCvar("r_mergeStages", "0");
+    const std::vector<uint8_t> apart = drawFrame(renderer, services, view, shader);
+    EXPECT_GT(renderer.pipelineCount(), warmed) << "no stages in view that share a pass";
+    EXPECT_LE(largestDifference(first, apart), 1) << "stages in one pass change the picture";
     EXPECT_NE(services.cvar("q3rt_stats", "", 0).string().find("\"world view\""), std::string::npos);
     for (const std::string& message : renderer.messages())
         ADD_FAILURE() << message;

@@ -316,7 +316,7 @@ TEST(RasterSky, BlocksShowClockwiseFromTheEye) {
     for (int face = 0; face < kSkyFaces; ++face) {
         std::vector<Vertex> vertices;
         std::vector<uint32_t> indices;
-        appendSkyFace(coverage, face, vec3(0), 100, false, 0, vertices, indices);
+        appendSkyFace(coverage, face, vec3(0), 100, 0, vertices, indices);
         for (size_t i = 0; i + 2 < indices.size(); i += 3) {
             const vec3 &p = vertices[indices[i]].position, &q = vertices[indices[i + 1]].position,
                        &r = vertices[indices[i + 2]].position;
