@@ -190,12 +190,15 @@ void DrawListBuilder::appendBatch(ViewWork& work, size_t firstItem, size_t lastI
     batch.material = id;
     batch.source = last.fromWorld ? VertexSource::World : VertexSource::Dynamic;
     batch.firstIndex = static_cast<uint32_t>(work.out.indices.size());
-    for (size_t i = firstItem; i < lastItem; ++i)
+    batch.entity = entityIndex(work, last.entity);
+    for (size_t i = firstItem; i < lastItem; ++i) {
+        const size_t firstIndex = work.out.indices.size();
         appendItemIndices(work, work.items[i]);
+        if (work.settings.cullTriangles) cullTriangles(work, batch, material.cull, firstIndex);
+    }
     batch.indexCount = static_cast<uint32_t>(work.out.indices.size()) - batch.firstIndex;
     if (batch.indexCount == 0) return;
     batch.stages = m_stages.evaluate(id, record.stage);
-    batch.entity = entityIndex(work, last.entity);
     batch.fog = fogIndex(work, last.fog);
     batch.depthFirst = last.fromWorld && !work.view.portal && coversWhatIsBehind(material);
     if (record.flags & entityFlag::kDepthHack) batch.depthRange = DepthRange::Weapon;
@@ -203,6 +206,17 @@ void DrawListBuilder::appendBatch(ViewWork& work, size_t firstItem, size_t lastI
     if (material.sort <= 3 && (material.surfaceFlags & kUnlit) == 0) appendLights(work, batch, firstItem, lastItem);
     work.out.batches.push_back(batch);
     if (work.settings.raster.r_shownormals != 0) appendNormals(work, batch);
+}
+
+void DrawListBuilder::cullTriangles(ViewWork& work, const DrawBatch& batch, CullMode cull, size_t firstIndex) {
+    TriangleView view;
+    view.clipFromModel = work.out.entities[batch.entity].clipFromModel;
+    view.sizePx = vec2(work.view.scene->width, work.view.scene->height);
+    view.cull = cull;
+    view.mirrored = work.view.mirrored;
+    view.manySamples = work.settings.raster.r_ext_multisample > 0;
+    m_culler.cull(view, batch.source == VertexSource::World ? m_world->vertices : work.out.vertices, work.out.indices,
+                  firstIndex);
 }
 
 SkyCoverage DrawListBuilder::findSkyCoverage(ViewWork& work, size_t firstItem, size_t lastItem) {

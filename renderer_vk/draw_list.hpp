@@ -11,6 +11,7 @@
 #include "renderer_vk/shadow_volume.hpp"
 #include "renderer_vk/sky.hpp"
 #include "renderer_vk/surface_lights.hpp"
+#include "renderer_vk/triangle_cull.hpp"
 #include "renderer_vk/visibility.hpp"
 #include "scene/entity_geometry.hpp"
 
@@ -23,6 +24,7 @@ struct DrawListSettings {
     MaterialId sun = 0, flare = 0;
     bool fastSky = false, drawWorld = true;
     bool dynamicLights = true;
+    bool cullTriangles = false; ///< leave out those that no pixel shows
 };
 
 /// 64-bit key, ascending: shader rank, entity, fog, lit. The world and polys come after all entities.
@@ -78,6 +80,7 @@ class DrawListBuilder {
     void makeBatches(ViewWork& work);
     void appendBatch(ViewWork& work, size_t firstItem, size_t lastItem);
     SkyCoverage findSkyCoverage(ViewWork& work, size_t firstItem, size_t lastItem);
+    void cullTriangles(ViewWork& work, const DrawBatch& batch, CullMode cull, size_t firstIndex);
     void appendSky(ViewWork& work, const Material& material, MaterialId id, size_t firstItem, size_t lastItem);
     void appendShadowVolumes(ViewWork& work);
     void appendShadowShade(ViewWork& work);
@@ -102,6 +105,7 @@ class DrawListBuilder {
     std::unique_ptr<WorldVisibility> m_visibility;
     std::unique_ptr<SurfaceLights> m_lights;
     ShadowVolumeBuilder m_shadowVolumes;
+    TriangleCuller m_culler;
     std::vector<std::unique_ptr<ViewMemory>> m_memory; ///< of the view, of the portal's in it, and so on
     std::vector<uint32_t> m_batchLights;               ///< of the batch at hand
     std::vector<uint32_t> m_handled;                   ///< stamp by world surface: once a view, also by brush models

@@ -97,6 +97,9 @@ DrawListSettings GpuRenderer::drawListSettings() const {
     result.flare = m_flare;
     result.fastSky = settings().r_fastsky != 0;
     result.drawWorld = settings().r_drawworld != 0;
+    const RasterSettings& r = m_rasterSettings;
+    const int wanted = m_context->device().capabilities().software ? 1 : 2; // the setting from which on it is done
+    result.cullTriangles = r.r_cullTriangles >= wanted && r.r_nocull == 0 && r.r_showtris == 0 && r.r_shownormals == 0;
     return result;
 }
 

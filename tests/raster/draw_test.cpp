@@ -111,6 +111,10 @@ TEST(RasterDraw, MapIsDrawnWithoutValidationMessages) {
     }
     services.setCvar("r_depthFirst", "0");
     EXPECT_EQ(first, drawFrame(renderer, services, view, shader)) << "depth first changes the picture";
+    for (const char* choice : {"0", "2"}) {
+        services.setCvar("r_cullTriangles", choice);
+        EXPECT_TRUE(first == drawFrame(renderer, services, view, shader)) << "triangles that show are left out";
+    }
     services.setCvar("r_mergeStages", "0");
     const std::vector<uint8_t> apart = drawFrame(renderer, services, view, shader);
     EXPECT_GT(renderer.pipelineCount(), warmed) << "no stages in view that share a pass";

@@ -1,0 +1,38 @@
+#pragma once
+// Triangles that no pixel shows, left out before they are drawn: a software driver takes longer over one than this
+// does. Pure CPU.
+
+#include <span>
+#include <vector>
+
+#include "scene/material.hpp"
+#include "shaders/shared/vertex.h"
+
+namespace q3rt {
+
+/// Where triangles are drawn, and which side of them shows.
+struct TriangleView {
+    mat4 clipFromModel{1.0f};
+    vec2 sizePx{0}; ///< of the viewport
+    CullMode cull = CullMode::Front;
+    bool mirrored = false;
+    bool manySamples = false; ///< a pixel has samples beside its centre
+};
+
+class TriangleCuller {
+  public:
+    /// Removes from `indices`, beginning at `first`, the triangles that are wholly outside the view, turn their hidden
+    /// side to the eye or lie between samples. What the driver's rounding might decide otherwise is kept.
+    void cull(const TriangleView& view, std::span<const Vertex> vertices, std::vector<uint32_t>& indices, size_t first);
+
+  private:
+    struct ScreenVertex {
+        vec2 px;
+        uint32_t outside; ///< a bit for each side of the view, and kUnknown
+    };
+    static ScreenVertex project(const TriangleView& view, const vec3& position);
+    static bool shows(const TriangleView& view, const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c);
+    std::vector<ScreenVertex> m_screen;
+};
+
+} // namespace q3rt
