@@ -63,5 +63,20 @@ TEST_F(RelightCommand, AllGoesOnWhereItWasBrokenOff) {
     EXPECT_EQ(readText(file()), text);
 }
 
+TEST_F(RelightCommand, PlayMakesTheFileBeforeTheGameStarts) {
+    const fs::path cache = makeScratchFolder("relight_cache");
+    const fs::path made = cache / "q3rt" / "home" / "baseoa" / "lights" / (std::string(kBadMap) + ".ent");
+    const auto play = [&] {
+        return runQ3rt({"play", "--map", kBadMap, "--relight", "--headless", "--renderer", "null", "--frames", "1",
+                        "--basepath", (m_in / "good").string()},
+                       {"XDG_CACHE_HOME=" + cache.string()});
+    };
+    EXPECT_EQ(play().exitCode, 1) << "the folder holds a map, and no game to play on it";
+    EXPECT_EQ(parseLostLights(readText(made), made.string()).stage, 0u);
+    const auto written = fs::last_write_time(made);
+    play();
+    EXPECT_EQ(fs::last_write_time(made), written) << "it is there already";
+}
+
 } // namespace
 } // namespace q3rt::test
