@@ -131,13 +131,17 @@ class TradeMeter::ViewTimer {
         , m_figures(figures)
         , m_start(SteadyClock::now()) {}
 
-    /// Of a view that stands still the later half is timed too: every setting's memory is under way by then.
+    /// Of a view that stands still the later half is timed too, as far as times are wanted: every setting's memory is
+    /// under way by then. The pictures' memory is always `frames` long.
     void warmUp(int frames) {
         const bool timed = m_meter.m_source.approachIsView() && m_point.frames == 1 && m_plan.awakeSeconds <= 0;
         const int first = timed ? std::max(kSettle, frames / 2) : frames;
         m_meter.m_session.approach(m_view, std::min(first, frames));
-        for (int i = first; i < frames && wantsMore(); ++i)
-            timeFrame();
+        for (int i = first; i < frames; ++i)
+            if (wantsMore())
+                timeFrame();
+            else
+                m_meter.m_session.draw(m_view, false);
     }
     /// They are compared when the times are known: the device does not wait meanwhile.
     std::vector<HostFrame> takePictures() {
