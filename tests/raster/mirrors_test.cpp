@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "baseq3-test/bsp_writer.hpp"
-#include "baseq3-test/test_maps.hpp"
 #include "raster/raster_rig.hpp"
+#include "truth/test_game.hpp"
 
 namespace q3rt::test {
 namespace {
@@ -15,39 +15,20 @@ constexpr const char* kMirrorScript =
 constexpr float kEyeYDegrees = 4; // the eye looks a little aside: it would only see the middle of all pictures
 
 /// A box with a mirror in each of two walls, from the test maps' materials.
-class MirrorRoom : public FileSource {
+class MirrorRoom : public TestGame {
   public:
     MirrorRoom() {
-        for (auto& [name, bytes] : buildTestGameFiles())
-            m_files.emplace_back(name, std::move(bytes));
         BoxMap map = describeSquareLightRoom();
         room = map.air.front().box;
         for (const int x : {room.mins.x, room.maxs.x}) {
             mirrors.push_back({{x, room.mins.y + 64, room.mins.z + 32}, {x, room.maxs.y - 64, room.maxs.z - 64}});
             map.panels.push_back({mirrors.back(), kMirror});
         }
-        m_files.emplace_back("maps/mirrors.bsp", writeBsp(buildBoxMap(map)));
-        const std::string script = std::string(kMirror) + kMirrorScript;
-        const auto* bytes = reinterpret_cast<const std::byte*>(script.data());
-        m_files.emplace_back("scripts/mirror.shader", std::vector(bytes, bytes + script.size()));
-    }
-    std::optional<std::vector<std::byte>> read(std::string_view name) override {
-        for (const auto& [known, bytes] : m_files)
-            if (known == name) return bytes;
-        return std::nullopt;
-    }
-    std::vector<std::string> list(std::string_view directory, std::string_view extension) override {
-        std::vector<std::string> names;
-        for (const auto& [name, bytes] : m_files)
-            if (name.starts_with(std::string(directory) + "/") && name.ends_with(extension))
-                names.push_back(name.substr(directory.size() + 1));
-        return names;
+        add("maps/mirrors.bsp", writeBsp(buildBoxMap(map)));
+        addText("scripts/mirror.shader", std::string(kMirror) + kMirrorScript);
     }
     IntBox room;
     std::vector<IntBox> mirrors;
-
-  private:
-    std::vector<std::pair<std::string, std::vector<std::byte>>> m_files;
 };
 
 std::vector<uint8_t> drawMirrors(TestRenderer& renderer, TestServices& services, const MirrorRoom& room) {

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "baseq3-test/bsp_writer.hpp"
-#include "baseq3-test/test_maps.hpp"
 #include "metrics/image_metrics.hpp"
 #include "support/game_data.hpp"
 #include "trace_harness.hpp"
+#include "truth/test_game.hpp"
 
 namespace q3rt {
 namespace {
@@ -60,32 +60,15 @@ class MirrorFiles : public FileSource {
 };
 
 /// A room like that of the test maps, with a mirror in its floor.
-class MirrorRoom : public FileSource {
+class MirrorRoom : public test::TestGame {
   public:
     static constexpr IntBox kMirror{{-128, -64, 0}, {128, 192, 0}};
     MirrorRoom() {
-        for (auto& [name, bytes] : buildTestGameFiles())
-            m_files.emplace_back(name, std::move(bytes));
         BoxMap map = describeSquareLightRoom();
         map.panels.push_back({kMirror, "textures/baseq3test/mirror"});
-        m_files.emplace_back("maps/mirror_room.bsp", writeBsp(buildBoxMap(map)));
-        m_files.emplace_back("scripts/mirror.shader", toBytes(std::string("textures/baseq3test/mirror") + kPureMirror));
+        add("maps/mirror_room.bsp", writeBsp(buildBoxMap(map)));
+        addText("scripts/mirror.shader", std::string("textures/baseq3test/mirror") + kPureMirror);
     }
-    std::optional<std::vector<std::byte>> read(std::string_view name) override {
-        for (const auto& [known, bytes] : m_files)
-            if (known == name) return bytes;
-        return std::nullopt;
-    }
-    std::vector<std::string> list(std::string_view directory, std::string_view extension) override {
-        std::vector<std::string> names;
-        for (const auto& [name, bytes] : m_files)
-            if (name.starts_with(std::string(directory) + "/") && name.ends_with(extension))
-                names.push_back(name.substr(directory.size() + 1));
-        return names;
-    }
-
-  private:
-    std::vector<std::pair<std::string, std::vector<std::byte>>> m_files;
 };
 
 constexpr int kWidth = 96, kHeight = 72; ///< pixels
