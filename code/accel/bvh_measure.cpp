@@ -57,10 +57,11 @@ float refit(Bvh& bvh, std::span<const Bounds> items) {
             cost += box[slot].halfArea() * (leaf ? static_cast<float>(leafCount(child)) : 1.0f);
             whole[i].add(box[slot]);
         }
-        repackBoxes(node, box);
+        setBoxes(node, box);
     }
     bvh.bounds = {};
     if (!bvh.order.empty()) bvh.bounds = {whole[0].low(), whole[0].high()};
+    bvh.nodes[0].reach = reachOf(bvh.bounds);
     const float area = whole[0].halfArea();
     return (1.0f + (area > 0 ? cost / area : 0.0f)) / bvh.builtCost;
 }

@@ -13,10 +13,11 @@ struct NodeContent {
     uint8_t groups[kBvhWidth]{}; ///< 0: absent
 };
 
-/// Boxes as stored hold the given ones whole.
 BvhNode packNode(const NodeContent& content);
 /// New boxes for the same children.
-void repackBoxes(BvhNode& node, const Box4 (&box)[kBvhWidth]);
+void setBoxes(BvhNode& node, const Box4 (&box)[kBvhWidth]);
+/// BvhNode::reach of a tree with these bounds.
+float reachOf(const Bounds& box);
 
 /// A leaf as BvhNode::child has it.
 inline uint32_t leafWord(uint32_t first, uint32_t count) { return kBvhLeafBit | count << kBvhCountShift | first; }
@@ -25,7 +26,7 @@ inline uint32_t leafCount(uint32_t word) { return (word & ~kBvhLeafBit) >> kBvhC
 void setGroups(BvhNode& node, uint32_t slot, uint32_t groups);
 /// Group bits of a child; 0: there is none.
 inline uint32_t groupsOf(const BvhNode& node, uint32_t slot) {
-    const uint32_t held = node.scales >> (kBvhGroupShift + slot);
+    const uint32_t held = node.groups >> slot;
     return (held & 1u) * kBvhSolidGroup | (held >> kBvhWidth & 1u) * kBvhOtherGroup;
 }
 

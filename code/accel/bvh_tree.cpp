@@ -121,6 +121,7 @@ Bvh layOut(const std::vector<BuildNode>& tree, uint32_t root, std::span<const Bu
         for (uint32_t slot = wide.count; slot-- > 0;)
             if (!wide.child[slot]->leaf) pending.push_back({wide.child[slot]->node, index, slot});
     }
+    bvh.nodes[0].reach = reachOf(bvh.bounds);
     if (!groups.empty()) gatherGroups(bvh.nodes);
     bvh.builtCost = 1.0f + (bounds.halfArea() > 0 ? cost / bounds.halfArea() : 0.0f);
     return bvh;

@@ -14,46 +14,45 @@ vec3 slabReciprocal(vec3 direction)
                 1.0f / (abs(direction.z) < tiny ? tiny : direction.z));
 }
 
-// Bound of a slab's distance, relative to the sizes of its two terms: 12 u, see boxesMet().
-const float kSlabError = 7.152557373046875e-7f;
+// Bound of a slab's distance, relative to the sizes of its two terms: 10 u, see makeSlabRay().
+const float kSlabError = 5.9604644775390625e-7f;
 
-// Bytes q of a word as 1 + q/256, exactly: into the mantissa's upper bits, so that no conversion is needed.
-vec4 onePlusBytes(uint word)
+// A ray as the box test wants it: a plane at b is entered at b x reciprocal + enter, left at b x reciprocal + leave.
+struct SlabRay {
+    vec3 reciprocal;
+    vec3 enter;
+    vec3 leave;
+};
+
+// `reciprocal` of slabReciprocal(). `reach`: of the tree, no plane's coordinate is larger. |origin|, reach < 2^46.
+//
+// No box that the exact ray meets is missed. A plane at b is met at t = (b - o) / d, computed as b r - o r, r = 1/d.
+// With u = 2^-24 the roundings are: r 5 u (Vulkan allows a division 2.5 ulp), a product u each, their difference and
+// that with E below u each. So |error| <= 8 u (|b r| + |o r|) <= 10 u (reach + |o|) |r| = E with room for the terms of
+// second order and for E's own roundings; entering planes are moved E towards the origin, leaving ones E away. In space
+// that is 10 u of the farthest coordinate, 0.005 qu on a map of 8,192.
+SlabRay makeSlabRay(vec3 origin, vec3 reciprocal, float reach)
 {
-    const uint mantissa = 0x7f8000u;
-    return uintBitsToFloat((uvec4(word << 15u, word << 7u, word >> 1u, word >> 9u) & mantissa) | 0x3f800000u);
+    vec3 along = -origin * reciprocal;
+    vec3 error = (abs(origin) + reach) * abs(reciprocal) * kSlabError;
+    return SlabRay(reciprocal, along - error, along + error);
 }
 
 // Children of a node whose boxes the ray may meet in [tMin, tMax], tMin >= 0: a bit each. `first`: the one that it
-// enters first.
+// enters first. `near`, `far`: the planes where it enters and leaves, of four children.
 //
-// No box that the exact ray meets is missed. A plane at q cells c from the node's origin g is met at
-//   t = (g + q c - o) / d = f S + B,   f = 1 + q/256,  S = 256 c r,  B = (g - o) r - S,  r = 1/d
-// where c is a power of two, so that f and 256 c are exact. With u = 2^-24 the roundings are: r 5 u (Vulkan allows a
-// division 2.5 ulp), g - o, times r, - S, f S, the sum, and E's own subtraction u each. Relative to |g - o| |r| these
-// are 5 + 5 of them, to |S| 5 + 7 (f < 2); S itself is exact in r. So |error| <= 12 u (|(g - o) r| + 2 |S|) = E with
-// room for the terms of second order, and entering planes are moved E towards the origin, leaving ones E away.
 // Comparisons are of integers: the larger of a float and a float >= 0 is that of their bits as integers, and so is
 // the smaller one unless one is negative, when the result is negative and the box is behind the ray. (Sorting floats
 // by instructions that must also pass over NaN takes three times as many on a CPU; there is no NaN here.)
-uint boxesMet(BvhNode node, vec3 origin, vec3 reciprocal, float tMin, float tMax, OUT(uint) first)
+uint boxesMet(vec4 nearX, vec4 nearY, vec4 nearZ, vec4 farX, vec4 farY, vec4 farZ, SlabRay ray, float tMin, float tMax,
+              OUT(uint) first)
 {
-    vec3 cell256 = vec3(uintBitsToFloat((node.scales << 23u) & 0x7f800000u),
-                        uintBitsToFloat((node.scales << 15u) & 0x7f800000u),
-                        uintBitsToFloat((node.scales << 7u) & 0x7f800000u)) * 256.0f;
-    vec3 along = (node.origin - origin) * reciprocal;
-    vec3 perStep = cell256 * reciprocal;
-    vec3 error = (abs(along) + abs(perStep) * 2.0f) * kSlabError;
-    vec3 base = along - perStep;
-    vec3 enterBase = base - error;
-    vec3 leaveBase = base + error;
-    bool backX = reciprocal.x < 0.0f, backY = reciprocal.y < 0.0f, backZ = reciprocal.z < 0.0f;
-    ivec4 enterX = floatBitsToInt(onePlusBytes(backX ? node.highX : node.lowX) * perStep.x + enterBase.x);
-    ivec4 enterY = floatBitsToInt(onePlusBytes(backY ? node.highY : node.lowY) * perStep.y + enterBase.y);
-    ivec4 enterZ = floatBitsToInt(onePlusBytes(backZ ? node.highZ : node.lowZ) * perStep.z + enterBase.z);
-    ivec4 leaveX = floatBitsToInt(onePlusBytes(backX ? node.lowX : node.highX) * perStep.x + leaveBase.x);
-    ivec4 leaveY = floatBitsToInt(onePlusBytes(backY ? node.lowY : node.highY) * perStep.y + leaveBase.y);
-    ivec4 leaveZ = floatBitsToInt(onePlusBytes(backZ ? node.lowZ : node.highZ) * perStep.z + leaveBase.z);
+    ivec4 enterX = floatBitsToInt(nearX * ray.reciprocal.x + ray.enter.x);
+    ivec4 enterY = floatBitsToInt(nearY * ray.reciprocal.y + ray.enter.y);
+    ivec4 enterZ = floatBitsToInt(nearZ * ray.reciprocal.z + ray.enter.z);
+    ivec4 leaveX = floatBitsToInt(farX * ray.reciprocal.x + ray.leave.x);
+    ivec4 leaveY = floatBitsToInt(farY * ray.reciprocal.y + ray.leave.y);
+    ivec4 leaveZ = floatBitsToInt(farZ * ray.reciprocal.z + ray.leave.z);
     ivec4 enter = max(max(enterX, enterY), max(enterZ, ivec4(floatBitsToInt(tMin))));
     ivec4 leave = min(min(leaveX, leaveY), min(leaveZ, ivec4(floatBitsToInt(tMax))));
     // The child's number stands in the lowest bits of its distance.

@@ -1,5 +1,5 @@
-// Our own two-level tree as the shaders read it. Scalar layout. Bytes: 64 a node of up to four children, 48 a triangle,
-// 80 an instance.
+// Our own two-level tree as the shaders read it. Scalar layout. Bytes: 128 a node of up to four children, 48 a
+// triangle, 80 an instance.
 #ifndef Q3RT_SHARED_BVH_H
 #define Q3RT_SHARED_BVH_H
 #include "types.h"
@@ -20,29 +20,24 @@ SHARED_CONST kBvhItemMask = 0x07ffffffu;
 SHARED_CONST kBvhMaxDepth = 64u;
 
 // Rays look for one of two groups of triangles (renderer_rt sorts surfaces into them); a subtree without any is
-// passed by. Bits of an item; in BvhNode::scales, from kBvhGroupShift on, kBvhWidth bits say which children have
-// solids, as many which have others.
+// passed by. Bits of an item; in BvhNode::groups kBvhWidth bits say which children have solids, the next kBvhWidth
+// which have others.
 SHARED_CONST kBvhSolidGroup = 1u;
 SHARED_CONST kBvhOtherGroup = 2u;
-SHARED_CONST kBvhGroupShift = 24u;
 
-// Children's boxes on a grid of 256 cells an axis, lower bounds rounded down and upper ones up
-// (code/accel/bvh_node.cpp; after Ylitie, Karras and Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through
-// Compressed Wide BVHs"): a cache line holds four of them, and all that a visit reads is 40 bytes. An absent child is
-// in no group.
+// A GPU's cache line. Bounds are whole numbers of binary32, not smaller ones on a grid: unpacking those takes more
+// instructions than all the tests of a visit, and instructions are what tracing costs (docs/tracing.md).
 struct BvhNode {
-    vec3 origin;  // of the grid: the lowest corner
-    uint scales;  // a byte an axis: exponent of the cell's size as in binary32; then the children's groups
-    uint lowX;    // a byte a child: lower bounds in cells
-    uint lowY;
-    uint lowZ;
-    uint highX;
-    uint highY;
-    uint highZ;
+    vec4 bounds[6]; // low x, y, z, high x, y, z; a child a component
+    uint child[4];  // an absent one is in no group
+    uint groups;
+    float reach; // of the root: no coordinate of the tree is farther from 0
     uint reserved0;
     uint reserved1;
-    uint child[4];
 };
+// From a child's lower bound to the upper one on the same axis, in BvhNode::bounds.
+SHARED_CONST kBvhToHigh = 3u;
+SHARED_CONST kBvhNodePlanes = 8u; // vec4s a node
 
 SHARED_CONST kBvhTriangleOpaque = 1u;   // a hit counts without asking anybody
 SHARED_CONST kBvhTriangleCullBack = 2u; // rays that look don't meet its back

@@ -1,8 +1,10 @@
 // Two-level traversal of our own tree: a stack, the child that the ray enters first goes first. Loops, no recursion;
 // bounded by the depth that builders guarantee. Pure but for what the includer defines:
 //   struct BvhQuery                                          what the search carries along
-//   BvhNode loadBvhNode(BVH_TABLE nodes, uint index)
-//   uint loadBvhChild(BVH_TABLE nodes, uint index, uint slot)         the same node's child[slot]
+//   vec4 loadBvhPlane(BVH_TABLE nodes, uint index, uint plane)        a node's bounds[plane]
+//   uint loadBvhChild(BVH_TABLE nodes, uint index, uint slot)         its child[slot]
+//   uint loadBvhGroups(BVH_TABLE nodes, uint index)
+//   float loadBvhReach(BVH_TABLE nodes)                               of the root
 //   float loadBvhCoordinate(BVH_TABLE triangles, uint index, uint corner, uint axis)
 //   BvhInstance loadBvhInstance(INOUT(BvhQuery) query, uint item)     the instance at a leaf item of the scene tree
 //   float onBvhTriangle(INOUT(BvhQuery) query, uint item, BVH_TABLE triangles, uint index, TriangleHit test,
@@ -16,18 +18,15 @@
 
 // One level's ray.
 struct BvhRay {
-    vec3 origin;
-    vec3 reciprocal;
-    TriangleRay triangleRay;
+    SlabRay slabs;
+    TriangleRay triangle;
 };
 
-BvhRay makeBvhRay(vec3 origin, vec3 direction)
+BvhRay makeBvhRay(vec3 origin, vec3 direction, BVH_TABLE nodes)
 {
-    BvhRay ray;
-    ray.origin = origin;
-    ray.reciprocal = slabReciprocal(direction);
-    ray.triangleRay = makeTriangleRay(origin, direction, ray.reciprocal);
-    return ray;
+    vec3 reciprocal = slabReciprocal(direction);
+    return BvhRay(makeSlabRay(origin, reciprocal, loadBvhReach(nodes)),
+                  makeTriangleRay(origin, direction, reciprocal));
 }
 
 // The ray in the model space of an instance; the direction keeps its scale, so that t means the same in both spaces.
@@ -38,7 +37,22 @@ BvhRay toModelSpace(BvhInstance instance, vec3 origin, vec3 direction)
     vec3 r0 = vec3(m0), r1 = vec3(m1), r2 = vec3(m2);
     vec3 away = origin - vec3(m0.w, m1.w, m2.w);
     return makeBvhRay(vec3(dot(r0, away), dot(r1, away), dot(r2, away)),
-                      vec3(dot(r0, direction), dot(r1, direction), dot(r2, direction)));
+                      vec3(dot(r0, direction), dot(r1, direction), dot(r2, direction)), instance.nodes);
+}
+
+// Children of a node that the ray may meet and that hold something of `wanted`; as boxesMet().
+uint visitBvhNode(SlabRay ray, BVH_TABLE nodes, uint index, uint wanted, float tMin, float tMax, OUT(uint) first)
+{
+    // By address, not by choosing between planes that were read.
+    uint x = ray.reciprocal.x < 0.0f ? kBvhToHigh : 0u;
+    uint y = ray.reciprocal.y < 0.0f ? kBvhToHigh : 0u;
+    uint z = ray.reciprocal.z < 0.0f ? kBvhToHigh : 0u;
+    uint met = boxesMet(loadBvhPlane(nodes, index, x), loadBvhPlane(nodes, index, 1u + y),
+                        loadBvhPlane(nodes, index, 2u + z), loadBvhPlane(nodes, index, kBvhToHigh - x),
+                        loadBvhPlane(nodes, index, 1u + kBvhToHigh - y),
+                        loadBvhPlane(nodes, index, 2u + kBvhToHigh - z), ray, tMin, tMax, first);
+    uint held = loadBvhGroups(nodes, index) & wanted;
+    return met & (held | (held >> kBvhWidth));
 }
 
 vec3 loadBvhCorner(BVH_TABLE triangles, uint index, uint corner, uvec3 axes)
@@ -78,7 +92,7 @@ void traverseBvh(BVH_TABLE sceneNodes, vec3 origin, vec3 direction, float tMin, 
     uint top = 0u;
     const uint kNoModel = 0xffffffffu;
     uint modelBase = kNoModel;
-    BvhRay ray = makeBvhRay(origin, direction);
+    BvhRay ray = makeBvhRay(origin, direction, sceneNodes);
     BVH_TABLE nodes = sceneNodes;
     BVH_TABLE triangles = sceneNodes;
     uint item = 0u;
@@ -87,10 +101,8 @@ void traverseBvh(BVH_TABLE sceneNodes, vec3 origin, vec3 direction, float tMin, 
     for (;;) {
         uint slot = kBvhWidth;
         if ((child & kBvhLeafBit) == 0u) {
-            BvhNode node = loadBvhNode(nodes, child);
             uint first;
-            uint held = (node.scales >> kBvhGroupShift) & wanted;
-            uint met = boxesMet(node, ray.origin, ray.reciprocal, tMin, tMax, first) & (held | (held >> kBvhWidth));
+            uint met = visitBvhNode(ray.slabs, nodes, child, wanted, tMin, tMax, first);
             if (met != 0u) {
                 if ((rest & slots) != 0u)
                     stack[top++] = rest;
@@ -99,7 +111,7 @@ void traverseBvh(BVH_TABLE sceneNodes, vec3 origin, vec3 direction, float tMin, 
                     slot = first;
             }
         } else if (modelBase != kNoModel) {
-            tMax = visitBvhLeaf(ray.triangleRay, item, triangles, child, tMin, tMax, query);
+            tMax = visitBvhLeaf(ray.triangle, item, triangles, child, tMin, tMax, query);
             if (tMax < 0.0)
                 return;
         } else {
@@ -122,7 +134,7 @@ void traverseBvh(BVH_TABLE sceneNodes, vec3 origin, vec3 direction, float tMin, 
             if ((rest & slots) == 0u) {
                 if (top == modelBase) {
                     modelBase = kNoModel;
-                    ray = makeBvhRay(origin, direction);
+                    ray = makeBvhRay(origin, direction, sceneNodes);
                     nodes = sceneNodes;
                 }
                 if (top == 0u)

@@ -7,14 +7,20 @@
 #include "lib/intersect.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer BvhNodeTable { BvhNode at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer BvhPlaneTable { vec4 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer BvhTriangleTable { BvhTriangle at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer BvhCoordinateTable { float at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer BvhInstanceTable { BvhInstance at[]; };
 
 const uint kBvhTriangleWords = 3u * kBvhCornerWords;
 
-BvhNode loadBvhNode(uvec2 nodes, uint index) { return BvhNodeTable(nodes).at[index]; }
+vec4 loadBvhPlane(uvec2 nodes, uint index, uint plane)
+{
+    return BvhPlaneTable(nodes).at[index * kBvhNodePlanes + plane];
+}
 uint loadBvhChild(uvec2 nodes, uint index, uint slot) { return BvhNodeTable(nodes).at[index].child[slot]; }
+uint loadBvhGroups(uvec2 nodes, uint index) { return BvhNodeTable(nodes).at[index].groups; }
+float loadBvhReach(uvec2 nodes) { return BvhNodeTable(nodes).at[0].reach; }
 float loadBvhCoordinate(uvec2 triangles, uint index, uint corner, uint axis)
 {
     return BvhCoordinateTable(triangles).at[index * kBvhTriangleWords + corner * kBvhCornerWords + axis];

@@ -19,13 +19,17 @@ struct BvhQuery {
     TestHit hit;
 };
 
-BvhNode loadBvhNode(BVH_TABLE table, uint index) {
-    ++visitCount;
-    return reinterpret_cast<const BvhNode*>(table)[index];
+const vec4& loadBvhPlane(BVH_TABLE table, uint index, uint plane) {
+    return reinterpret_cast<const BvhNode*>(table)[index].bounds[plane];
 }
 uint loadBvhChild(BVH_TABLE table, uint index, uint slot) {
     return reinterpret_cast<const BvhNode*>(table)[index].child[slot];
 }
+uint loadBvhGroups(BVH_TABLE table, uint index) {
+    ++visitCount;
+    return reinterpret_cast<const BvhNode*>(table)[index].groups;
+}
+float loadBvhReach(BVH_TABLE table) { return reinterpret_cast<const BvhNode*>(table)->reach; }
 float loadBvhCoordinate(BVH_TABLE table, uint index, uint corner, uint axis) {
     return (&reinterpret_cast<const BvhTriangle*>(table)[index].corner0.x)[kBvhCornerWords * corner + axis];
 }
