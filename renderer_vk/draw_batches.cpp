@@ -219,9 +219,8 @@ void DrawListBuilder::cullTriangles(ViewWork& work, const DrawBatch& batch, Cull
                   firstIndex);
 }
 
-SkyCoverage DrawListBuilder::findSkyCoverage(ViewWork& work, size_t firstItem, size_t lastItem) {
-    SkyCoverage coverage;
-    coverage.clear();
+void DrawListBuilder::findSkyCoverage(ViewWork& work, size_t firstItem, size_t lastItem) {
+    m_skyCoverage.clear();
     const vec3& eye = work.view.eye.origin;
     const std::vector<Vertex>& vertices = work.items[firstItem].fromWorld ? m_world->vertices : work.out.vertices;
     const size_t firstIndex = work.out.indices.size();
@@ -229,16 +228,15 @@ SkyCoverage DrawListBuilder::findSkyCoverage(ViewWork& work, size_t firstItem, s
         appendItemIndices(work, work.items[i]);
     for (size_t i = firstIndex; i + 2 < work.out.indices.size(); i += 3) {
         const auto at = [&](size_t k) { return vertices[work.out.indices[i + k]].position - eye; };
-        coverage.addTriangle(at(0), at(1), at(2));
+        m_skyCoverage.addTriangle(at(0), at(1), at(2));
     }
     work.out.indices.resize(firstIndex);
-    return coverage;
 }
 
 void DrawListBuilder::appendSky(ViewWork& work, const Material& material, MaterialId id, size_t firstItem,
                                 size_t lastItem) {
     work.skyDrawn = true;
-    const SkyCoverage coverage = findSkyCoverage(work, firstItem, lastItem);
+    findSkyCoverage(work, firstItem, lastItem);
     DrawBatch batch;
     batch.material = id;
     batch.source = VertexSource::Dynamic;
@@ -248,7 +246,7 @@ void DrawListBuilder::appendSky(ViewWork& work, const Material& material, Materi
     std::array<SkyFaceRange, kSkyFaces> faces;
     for (int face = 0; face < (material.sky.hasBox ? kSkyFaces : kSkyCloudFaces); ++face)
         faces[static_cast<size_t>(face)] =
-            appendSkyFace(coverage, face, work.view.eye.origin, halfSize, m_materials.lastCloudHeight,
+            appendSkyFace(m_skyCoverage, face, work.view.eye.origin, halfSize, m_materials.lastCloudHeight,
                           work.out.vertices, work.out.indices);
     const int fog = fogIndex(work, work.items[firstItem].fog);
     StageRange clouds;

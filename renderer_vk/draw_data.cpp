@@ -1,5 +1,7 @@
 #include "renderer_vk/draw_data.hpp"
 
+#include "scene/busy_frame.hpp"
+
 namespace q3rt {
 
 StageState colorStage(const vec4& color) {
@@ -7,6 +9,19 @@ StageState colorStage(const vec4& color) {
     state.unit[0].texture = state.unit[1].texture = builtinTexture::kWhite;
     state.color = color;
     return state;
+}
+
+void FrameDrawData::reserve() {
+    vertices.reserve(busyFrame::kVertices);
+    indices.reserve(busyFrame::kIndices);
+    entities.reserve(busyFrame::kEntities);
+    lights.reserve(busyFrame::kSurfaces);
+    lightAdditive.reserve(busyFrame::kSurfaces);
+    fogs.reserve(busyFrame::kSmall);
+    ownStages.reserve(busyFrame::kSmall);
+    batches.reserve(busyFrame::kSurfaces);
+    views.reserve(busyFrame::kSmall);
+    flareTests.reserve(busyFrame::kSmall);
 }
 
 void FrameDrawData::clear() {

@@ -90,6 +90,7 @@ struct FrameDrawData {
     std::vector<DrawBatch> batches;
     std::vector<ViewDraw> views;
     std::vector<FlareTest> flareTests;
+    void reserve(); ///< room for a busy frame
     void clear();
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "renderer_vk/view_work.hpp"
+#include "scene/busy_frame.hpp"
 
 namespace q3rt {
 
@@ -34,6 +35,10 @@ DrawListBuilder::DrawListBuilder(const MaterialLibrary& materials, const ModelLi
     , m_models(models)
     , m_stages(stages)
     , m_world(world) {
+    m_surfaceLights.reserve(busyFrame::kLights);
+    m_batchLights.reserve(busyFrame::kSurfaces);
+    for (int depth = 0; depth < 2; ++depth) // the view, and a portal's in it
+        memoryOf(depth);
     if (!world) return;
     m_visibility = std::make_unique<WorldVisibility>(*world);
     m_lights = std::make_unique<SurfaceLights>(world->surfaces.size());
@@ -50,8 +55,10 @@ void DrawListBuilder::beginFrame(uint64_t frame) {
 
 DrawListBuilder::ViewMemory& DrawListBuilder::memoryOf(int portalDepth) {
     const auto index = static_cast<size_t>(portalDepth);
-    while (m_memory.size() <= index)
+    while (m_memory.size() <= index) {
         m_memory.push_back(std::make_unique<ViewMemory>());
+        m_memory.back()->reserve(m_world ? m_world->surfaces.size() : 0);
+    }
     return *m_memory[index];
 }
 
@@ -138,11 +145,11 @@ bool DrawListBuilder::touchWorldLights(const ViewWork& work, size_t place) {
     const auto reaching = m_lights->reaching(place);
     if (reaching.empty()) return false;
     const uint32_t surface = work.visible.surfaces[place];
-    std::vector<uint32_t>& touching = m_lights->touching(surface);
-    touching.clear();
+    m_surfaceLights.clear();
     for (const auto& [unused, light] : reaching)
-        if (lightTouchesSurface(m_world->surfaces[surface], work.lights()[light])) touching.push_back(light);
-    return !touching.empty();
+        if (lightTouchesSurface(m_world->surfaces[surface], work.lights()[light])) m_surfaceLights.push_back(light);
+    m_lights->setTouching(surface, m_surfaceLights);
+    return !m_surfaceLights.empty();
 }
 
 void DrawListBuilder::addWorld(ViewWork& work) {
@@ -180,10 +187,10 @@ void DrawListBuilder::addBrushModel(ViewWork& work, uint32_t index) {
     for (int i = 0; i < model.surfaceCount; ++i) {
         const auto surface = static_cast<uint32_t>(model.firstSurface + i);
         addWorldSurface(work, surface, index, [&] {
-            std::vector<uint32_t>& touching = m_lights->touching(surface);
-            touching.clear();
-            if (lit && lightTouchesSurface(m_world->surfaces[surface], lights.front())) touching.push_back(0);
-            return !touching.empty();
+            m_surfaceLights.clear();
+            if (lit && lightTouchesSurface(m_world->surfaces[surface], lights.front())) m_surfaceLights.push_back(0);
+            m_lights->setTouching(surface, m_surfaceLights);
+            return !m_surfaceLights.empty();
         });
     }
 }
@@ -216,8 +223,6 @@ void DrawListBuilder::addEntities(ViewWork& work) {
 
 bool DrawListBuilder::addPortalView(ViewWork& work) {
     if (work.settings.raster.r_noportals != 0 || work.settings.fastSky || !work.hasWorld()) return false;
-    std::vector<vec3> positions, normals;
-    std::vector<uint32_t> indices;
     for (const Item& item : work.items) {
         if (m_materials.get(item.material).sort > kPortalSort) break;
         // A deformed face keeps the plane that it has in the map.
@@ -232,6 +237,7 @@ bool DrawListBuilder::addPortalView(ViewWork& work) {
         const uint32_t count = item.fromWorld ? m_world->surfaces[item.surface].indexCount
                                               : work.geometry.surfaces[item.surface].indexCount;
         if (count < 3) continue;
+        auto& [positions, normals, indices] = m_portalCorners;
         positions.clear();
         normals.clear();
         indices.clear();

@@ -62,6 +62,11 @@ class DrawListBuilder {
         vec3 color{0};
         float fogKeep = 1;
     };
+    /// Of a surface that may be a portal.
+    struct Corners {
+        std::vector<vec3> positions, normals;
+        std::vector<uint32_t> indices;
+    };
     struct ViewWork; // of one view, in view_work.hpp
     struct ViewMemory;
 
@@ -79,7 +84,7 @@ class DrawListBuilder {
     ViewMemory& memoryOf(int portalDepth);
     void makeBatches(ViewWork& work);
     void appendBatch(ViewWork& work, size_t firstItem, size_t lastItem);
-    SkyCoverage findSkyCoverage(ViewWork& work, size_t firstItem, size_t lastItem);
+    void findSkyCoverage(ViewWork& work, size_t firstItem, size_t lastItem);
     void cullTriangles(ViewWork& work, const DrawBatch& batch, CullMode cull, size_t firstIndex);
     void appendSky(ViewWork& work, const Material& material, MaterialId id, size_t firstItem, size_t lastItem);
     void appendShadowVolumes(ViewWork& work);
@@ -106,7 +111,10 @@ class DrawListBuilder {
     std::unique_ptr<SurfaceLights> m_lights;
     ShadowVolumeBuilder m_shadowVolumes;
     TriangleCuller m_culler;
+    Corners m_portalCorners;
+    SkyCoverage m_skyCoverage;                         ///< of the batch at hand
     std::vector<std::unique_ptr<ViewMemory>> m_memory; ///< of the view, of the portal's in it, and so on
+    std::vector<uint32_t> m_surfaceLights;             ///< of the surface at hand
     std::vector<uint32_t> m_batchLights;               ///< of the batch at hand
     std::vector<uint32_t> m_handled;                   ///< stamp by world surface: once a view, also by brush models
     uint32_t m_stamp = 0;

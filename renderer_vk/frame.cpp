@@ -32,13 +32,14 @@ void GpuRenderer::drawFrame(const FrameCommands& frame, FrameImage* capture) {
     m_context->ring().timers().enabled = wantsTimes();
     m_context->beginFrame();
     followTextures(false);
+    followSettings();
     m_stages->beginFrame();
     m_raster->beginFrame(m_rasterSettings);
     m_eye = Eye::Both;
     m_anaglyph->follow(m_rasterSettings.r_anaglyphMode);
     onGpuFrameBegin(frame);
 
-    FrameGraph graph;
+    FrameGraph graph(&m_context->frameMemory());
     FrameTargets targets = importTargets(graph, m_context->main());
     if (m_rasterSettings.r_clear != 0) m_raster->addClear(graph, targets);
     const std::span<const FrameCommand> commands(frame.commands);

@@ -110,7 +110,7 @@ TargetImages GpuContext::makeTargets(VkExtent2D extent, const std::string& name)
                                .load = VK_ATTACHMENT_LOAD_OP_CLEAR,
                                .clear = {.depthStencil = {1.0f, 0}},
                                .stencil = true};
-        beginRendering(commands, extent, std::span(&color, 1), depth);
+        beginRendering(commands, extent, color, depth);
         vkCmdEndRenderingKHR(commands);
     });
     return made;
@@ -140,7 +140,10 @@ std::string GpuContext::describePresentation() const {
                       m_swapchain->describeMode());
 }
 
-void GpuContext::beginFrame() { m_ring->begin(); }
+void GpuContext::beginFrame() {
+    m_frameMemory.reset();
+    m_ring->begin();
+}
 
 void GpuContext::abandonFrame() {
     if (m_ring->recording()) m_ring->abandon();

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "base/frame_arena.hpp"
 #include "engine/front_end.hpp"
 #include "frame/frame_executor.hpp"
 #include "gpu/device.hpp"
@@ -37,6 +38,8 @@ class GpuContext {
 
     Device& device() { return *m_device; }
     FrameRing& ring() { return *m_ring; }
+    /// Of the frame at hand, from beginFrame() on.
+    FrameArena& frameMemory() { return m_frameMemory; }
     FrameExecutor& executor() { return *m_executor; }
     Uploader& uploader() { return *m_uploader; }
     TextureStore& textures() { return *m_textures; }
@@ -69,6 +72,7 @@ class GpuContext {
 
   private:
     EngineServices& m_engine;
+    FrameArena m_frameMemory;
     std::unique_ptr<Window> m_window;
     std::unique_ptr<Device> m_device;
     std::unique_ptr<FrameRing> m_ring;

@@ -54,8 +54,9 @@ void GpuRenderer::followTextures(bool flush) {
     const float anisotropy = m_rasterSettings.r_ext_texture_filter_anisotropic != 0
                                  ? static_cast<float>(m_rasterSettings.r_ext_max_anisotropy)
                                  : 1.0f;
-    m_context->textures().follow(textures(), {m_rasterSettings.r_textureMode, anisotropy}, readsTexels(),
-                                 m_context->uploader());
+    m_textureFilter.mode = m_rasterSettings.r_textureMode;
+    m_textureFilter.anisotropy = anisotropy;
+    m_context->textures().follow(textures(), m_textureFilter, readsTexels(), m_context->uploader());
     if (!m_context->uploader().pending()) return;
     if (flush)
         m_context->uploader().flush();
@@ -85,8 +86,8 @@ void GpuRenderer::onContentDropped() {
     m_context->textures().reset();
 }
 
-DrawListSettings GpuRenderer::drawListSettings() const {
-    DrawListSettings result;
+void GpuRenderer::followSettings() {
+    DrawListSettings& result = m_drawListSettings;
     result.raster = m_rasterSettings;
     result.geometry = viewGeometrySettings();
     constexpr int kVolumes = 2, kProjected = 3;
@@ -100,7 +101,6 @@ DrawListSettings GpuRenderer::drawListSettings() const {
     const RasterSettings& r = m_rasterSettings;
     const int wanted = m_context->device().capabilities().software ? 1 : 2; // the setting from which on it is done
     result.cullTriangles = r.r_cullTriangles >= wanted && r.r_nocull == 0 && r.r_showtris == 0 && r.r_shownormals == 0;
-    return result;
 }
 
 void GpuRenderer::onFrame(const FrameCommands& frame, FrameImage* capture) {

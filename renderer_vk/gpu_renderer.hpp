@@ -53,7 +53,8 @@ class GpuRenderer : public FrontEnd {
     RasterScene& raster() { return *m_raster; }
     StageTable& stageTable() { return *m_stages; }
     const RasterSettings& rasterSettings() const { return m_rasterSettings; }
-    DrawListSettings drawListSettings() const;
+    /// Of the frame at hand.
+    const DrawListSettings& drawListSettings() const { return m_drawListSettings; }
     /// Milliseconds of each pass of the newest finished frame; a pass may come more than once: its times add up.
     std::vector<TimerRow> passTimes() const;
     /// True once the first registration has opened the device.
@@ -72,10 +73,13 @@ class GpuRenderer : public FrontEnd {
     void drawFrame(const FrameCommands& frame, FrameImage* capture);
     void changeEye(FrameGraph& graph, Eye next, FrameTargets& targets, std::optional<FrameTargets>& leftEye);
     void followTextures(bool flush);
+    void followSettings();
     MaterialId knownMaterial(const char* name);
     void publishStats();
 
     RasterSettings m_rasterSettings;
+    DrawListSettings m_drawListSettings;
+    TextureFilter m_textureFilter;
     MaterialId m_projectionShadow = 0, m_sun = 0, m_flare = 0; ///< that the renderer draws of its own
     std::unique_ptr<GpuContext> m_context;
     std::unique_ptr<RasterScene> m_raster;

@@ -4,12 +4,12 @@
 
 #include "base/log.hpp"
 #include "gpu/device.hpp"
+#include "scene/busy_frame.hpp"
 
 namespace q3rt {
 
 namespace {
 
-constexpr VkDeviceSize kFirstStreamBytes = VkDeviceSize{1} << 20;
 constexpr VkDeviceSize kStorageAlignment = 256; // the largest that Vulkan lets a device ask for
 // Weapons keep to the nearest part of the depth range, so that they never reach into walls.
 constexpr float kWeaponDepth = 0.3f;
@@ -23,8 +23,8 @@ DescriptorLayout makeFrameLayout(Device& device) {
                             "raster frame");
 }
 
-BufferInfo streamInfo(VkBufferUsageFlags usage, const char* name) {
-    return {.size = kFirstStreamBytes, .usage = usage, .domain = MemoryDomain::Upload, .name = name};
+BufferInfo streamInfo(VkDeviceSize size, VkBufferUsageFlags usage, const char* name) {
+    return {.size = size, .usage = usage, .domain = MemoryDomain::Upload, .name = name};
 }
 
 VkViewport viewportOf(const ViewDraw& view, DepthRange range) {
@@ -78,12 +78,18 @@ RasterScene::RasterScene(GpuContext& context)
     , m_frameLayout(makeFrameLayout(context.device()))
     , m_pipelines(context.device(), m_frameLayout.handle(), context.textures().layout(), context.main().depth.format(),
                   context.samples())
-    , m_vertexStream(context.device(), streamInfo(VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "vertex stream"),
-                     context.ring().framesInFlight())
-    , m_indexStream(context.device(), streamInfo(VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "index stream"),
-                    context.ring().framesInFlight())
-    , m_storageStream(context.device(), streamInfo(VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "storage stream"),
-                      context.ring().framesInFlight())
+    , m_vertexStream(
+          context.device(),
+          streamInfo(busyFrame::kVertices * sizeof(Vertex), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "vertex stream"),
+          context.ring().framesInFlight())
+    , m_indexStream(
+          context.device(),
+          streamInfo(busyFrame::kIndices * sizeof(uint32_t), VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "index stream"),
+          context.ring().framesInFlight())
+    , m_storageStream(
+          context.device(),
+          streamInfo(busyFrame::kStages * sizeof(StageState), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "storage stream"),
+          context.ring().framesInFlight())
     , m_flareQueries(context.device(), context.ring().framesInFlight())
     , m_askedFlares(context.ring().framesInFlight())
     , m_bound(std::make_unique<BoundState>()) {
@@ -100,6 +106,7 @@ void RasterScene::setContent(const MaterialLibrary& materials, const ModelLibrar
     m_stages = &stages;
     m_pipelines.setGreyscale(greyscale);
     m_stagePasses.clear();
+    m_data.reserve();
     setWorld(nullptr);
 }
 
@@ -206,7 +213,7 @@ void RasterScene::addClear(FrameGraph& graph, FrameTargets& targets) {
                                    .load = VK_ATTACHMENT_LOAD_OP_CLEAR,
                                    .clear = {.depthStencil = {1.0f, 0}},
                                    .stencil = true};
-            beginRendering(pass.commands(), pass.extent(current.color), std::span(&color, 1), depth);
+            beginRendering(pass.commands(), pass.extent(current.color), color, depth);
             vkCmdEndRenderingKHR(pass.commands());
         });
 }
@@ -269,7 +276,7 @@ void RasterScene::bindFrame(PassContext& pass) {
 void RasterScene::recordViews(PassContext& pass, FrameTargets targets, uint32_t firstView, uint32_t viewCount) {
     const Attachment color = colorAttachment(pass, targets);
     const Attachment depth{.view = pass.view(targets.depth), .stencil = true};
-    beginRendering(pass.commands(), pass.extent(targets.color), std::span(&color, 1), depth);
+    beginRendering(pass.commands(), pass.extent(targets.color), color, depth);
     bindFrame(pass);
     for (uint32_t i = 0; i < viewCount; ++i)
         recordView(pass, m_data.views[firstView + i], pass.extent(targets.color));

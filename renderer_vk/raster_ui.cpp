@@ -109,6 +109,7 @@ void RasterScene::addUi(FrameGraph& graph, FrameTargets& targets, std::span<cons
 
 void RasterScene::warmPipelines(MaterialId flare) {
     if (!m_materials) return;
+    if (m_materials->count() > 0) stagePasses(static_cast<MaterialId>(m_materials->count() - 1));
     std::vector<StateKey> fresh;
     for (const StateKey& key : m_pipelines.statesOf(*m_materials, m_worldHasPortals, flare, m_mergeStages))
         if (!m_pipelines.known(key)) fresh.push_back(key);
@@ -135,7 +136,7 @@ void RasterScene::warmPipelines(MaterialId flare) {
         depth.transition(commands, {access::kDepthAttachment.stages, access::kDepthAttachment.access,
                                     access::kDepthAttachment.layout});
         const Attachment color{.view = target.view()}, depthAttachment{.view = depth.view(), .stencil = true};
-        beginRendering(commands, target.extent(), std::span(&color, 1), depthAttachment);
+        beginRendering(commands, target.extent(), color, depthAttachment);
         const VkDeviceSize offset = 0;
         const VkBuffer vertices = buffer.handle();
         vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &offset);

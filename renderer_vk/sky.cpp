@@ -41,39 +41,47 @@ void SkyCoverage::clear() {
     m_maxs.fill(vec2(kEmptyMax));
 }
 
-void SkyCoverage::addTriangle(const vec3& a, const vec3& b, const vec3& c) { clip({a, b, c}, 0); }
-
-void SkyCoverage::clip(std::vector<vec3> polygon, size_t plane) {
-    for (; plane < kClipNormals.size(); ++plane) {
-        const vec3& normal = kClipNormals[plane];
-        std::vector<float> distance(polygon.size());
-        bool front = false, back = false;
-        for (size_t i = 0; i < polygon.size(); ++i) {
-            distance[i] = glm::dot(polygon[i], normal);
-            front |= distance[i] > kSideEpsilon;
-            back |= distance[i] < -kSideEpsilon;
-        }
-        if (!front || !back) continue;
-        std::vector<vec3> sides[2];
-        for (size_t i = 0; i < polygon.size(); ++i) {
-            const size_t next = (i + 1) % polygon.size();
-            const float d = distance[i], e = distance[next];
-            if (d >= -kSideEpsilon) sides[0].push_back(polygon[i]);
-            if (d <= kSideEpsilon) sides[1].push_back(polygon[i]);
-            const bool crosses = (d > kSideEpsilon && e < -kSideEpsilon) || (d < -kSideEpsilon && e > kSideEpsilon);
-            if (!crosses) continue;
-            const vec3 cut = polygon[i] + (polygon[next] - polygon[i]) * (d / (d - e));
-            sides[0].push_back(cut);
-            sides[1].push_back(cut);
-        }
-        clip(std::move(sides[0]), plane + 1);
-        clip(std::move(sides[1]), plane + 1);
-        return;
-    }
-    addPolygon(polygon);
+void SkyCoverage::addTriangle(const vec3& a, const vec3& b, const vec3& c) {
+    m_points.assign({a, b, c});
+    clip(0, 0);
 }
 
-void SkyCoverage::addPolygon(const std::vector<vec3>& polygon) {
+/// Pushes the part of a polygon that lies in front of a plane through the eye, or near it.
+void SkyCoverage::appendSide(size_t firstPoint, size_t endPoint, const vec3& inwardNormal) {
+    for (size_t i = firstPoint; i < endPoint; ++i) {
+        const vec3 point = m_points[i], next = m_points[i + 1 < endPoint ? i + 1 : firstPoint];
+        const float d = glm::dot(point, inwardNormal), e = glm::dot(next, inwardNormal);
+        if (d >= -kSideEpsilon) m_points.push_back(point);
+        const bool crosses = (d > kSideEpsilon && e < -kSideEpsilon) || (d < -kSideEpsilon && e > kSideEpsilon);
+        if (crosses) m_points.push_back(point + (next - point) * (d / (d - e)));
+    }
+}
+
+/// Takes the polygon on top of the stack apart by `plane` and those after it, and removes it.
+void SkyCoverage::clip(size_t firstPoint, size_t plane) {
+    const size_t endPoint = m_points.size();
+    for (; plane < kClipNormals.size(); ++plane) {
+        const vec3& normal = kClipNormals[plane];
+        bool front = false, back = false;
+        for (size_t i = firstPoint; i < endPoint; ++i) {
+            const float distance = glm::dot(m_points[i], normal);
+            front |= distance > kSideEpsilon;
+            back |= distance < -kSideEpsilon;
+        }
+        if (front && back) break;
+    }
+    if (plane < kClipNormals.size()) {
+        for (const float side : {1.0f, -1.0f}) {
+            appendSide(firstPoint, endPoint, kClipNormals[plane] * side);
+            clip(endPoint, plane + 1);
+        }
+    } else {
+        addPolygon(std::span(m_points).subspan(firstPoint));
+    }
+    m_points.resize(firstPoint);
+}
+
+void SkyCoverage::addPolygon(std::span<const vec3> polygon) {
     vec3 sum(0.0f);
     for (const vec3& point : polygon)
         sum += point;

@@ -31,9 +31,11 @@ class SkyCoverage {
     BlockRange blocks(int face) const;
 
   private:
-    void clip(std::vector<vec3> polygon, size_t plane);
-    void addPolygon(const std::vector<vec3>& polygon);
+    void clip(size_t firstPoint, size_t plane);
+    void appendSide(size_t firstPoint, size_t endPoint, const vec3& inwardNormal);
+    void addPolygon(std::span<const vec3> polygon);
     std::array<vec2, kSkyFaces> m_mins{}, m_maxs{};
+    std::vector<vec3> m_points; ///< a stack of polygons, the one that is being clipped on top
 };
 
 /// Direction of grid point (s, t) of a face; length 1 along the face's axis.

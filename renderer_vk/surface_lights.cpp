@@ -22,6 +22,8 @@ bool lightTouchesSurface(const WorldSurface& surface, const SceneLight& light) {
 
 namespace {
 
+constexpr size_t kUsualLights = 4; // that touch a surface; more make the lists grow
+
 /// Marks the leafs that a light's sphere reaches.
 void markLeafs(const World& world, const SceneLight& light, int node, std::vector<uint8_t>& reached) {
     while (node >= 0) {
@@ -39,6 +41,8 @@ void markLeafs(const World& world, const SceneLight& light, int node, std::vecto
 
 void SurfaceLights::findReached(const World& world, const VisibleWorld& visible, std::span<const SceneLight> lights) {
     m_reached.clear();
+    // Packing looks at every surface: no sooner than when it frees as much.
+    if (m_lists.size() > 2 * m_listedCount + m_touching.size()) packLists();
     for (size_t l = 0; l < lights.size(); ++l) {
         m_leafs.assign(world.bsp.leafs.size(), 0);
         markLeafs(world, lights[l], world.bsp.nodes.empty() ? -1 : 0, m_leafs);
@@ -47,6 +51,36 @@ void SurfaceLights::findReached(const World& world, const VisibleWorld& visible,
                 m_reached.emplace_back(static_cast<uint32_t>(i), static_cast<uint32_t>(l));
     }
     std::ranges::sort(m_reached);
+}
+
+SurfaceLights::SurfaceLights(size_t surfaceCount)
+    : m_touching(surfaceCount) {
+    m_reached.reserve(surfaceCount * kUsualLights);
+    // What is listed, as much that is replaced, and a frame's more.
+    for (std::vector<uint32_t>* lists : {&m_lists, &m_packed})
+        lists->reserve(3 * surfaceCount * kUsualLights + surfaceCount);
+}
+
+void SurfaceLights::setTouching(uint32_t surface, std::span<const uint32_t> lights) {
+    List& list = m_touching[surface];
+    m_listedCount += lights.size() - list.count;
+    if (lights.size() > list.count) {
+        list.first = static_cast<uint32_t>(m_lists.size());
+        m_lists.insert(m_lists.end(), lights.begin(), lights.end());
+    } else {
+        std::ranges::copy(lights, m_lists.begin() + list.first);
+    }
+    list.count = static_cast<uint32_t>(lights.size());
+}
+
+void SurfaceLights::packLists() {
+    m_packed.clear();
+    for (List& list : m_touching) {
+        const auto first = m_lists.begin() + list.first;
+        list.first = static_cast<uint32_t>(m_packed.size());
+        m_packed.insert(m_packed.end(), first, first + list.count);
+    }
+    m_lists.swap(m_packed);
 }
 
 std::span<const std::pair<uint32_t, uint32_t>> SurfaceLights::reaching(size_t place) const {

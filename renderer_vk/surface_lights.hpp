@@ -16,18 +16,28 @@ namespace q3rt {
 /// are drawn on it if it lies near enough. The original does so, and a floor lit through its neighbours shows it.
 class SurfaceLights {
   public:
-    explicit SurfaceLights(size_t surfaceCount)
-        : m_touching(surfaceCount) {}
+    explicit SurfaceLights(size_t surfaceCount);
     /// For `visible` as the walk found it.
     void findReached(const World& world, const VisibleWorld& visible, std::span<const SceneLight> lights);
     /// (place, light) of one place in `visible`, lights ascending.
     std::span<const std::pair<uint32_t, uint32_t>> reaching(size_t place) const;
-    std::vector<uint32_t>& touching(uint32_t surface) { return m_touching[surface]; }
+    /// Which lights touch a surface now, ascending; kept until it is said again.
+    void setTouching(uint32_t surface, std::span<const uint32_t> lights);
+    std::span<const uint32_t> touching(uint32_t surface) const {
+        return std::span(m_lists).subspan(m_touching[surface].first, m_touching[surface].count);
+    }
 
   private:
     std::vector<uint8_t> m_leafs;                         ///< of the light at hand
     std::vector<std::pair<uint32_t, uint32_t>> m_reached; ///< sorted
-    std::vector<std::vector<uint32_t>> m_touching;        ///< by world surface
+    void packLists();
+    struct List {
+        uint32_t first = 0, count = 0; ///< in m_lists
+    };
+    std::vector<List> m_touching;  ///< by world surface
+    std::vector<uint32_t> m_lists; ///< replaced lists stay in it until it is packed into the other
+    std::vector<uint32_t> m_packed;
+    size_t m_listedCount = 0; ///< of lights in lists that are not replaced
 };
 
 /// May light 0 draw on surfaces of this brush model? The original moves all lights into the model's space to decide

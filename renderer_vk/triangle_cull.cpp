@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/busy_frame.hpp"
+
 namespace q3rt {
 
 namespace {
@@ -22,6 +24,8 @@ bool holdsSample(float least, float greatest, float slackPx) {
 }
 
 } // namespace
+
+TriangleCuller::TriangleCuller() { m_screen.reserve(busyFrame::kWorkVertices); }
 
 TriangleCuller::ScreenVertex TriangleCuller::project(const TriangleView& view, const vec3& position) {
     const vec4 clip = view.clipFromModel * vec4(position, 1.0f);

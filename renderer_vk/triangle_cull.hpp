@@ -21,6 +21,7 @@ struct TriangleView {
 
 class TriangleCuller {
   public:
+    TriangleCuller();
     /// Removes from `indices`, beginning at `first`, the triangles that are wholly outside the view, turn their hidden
     /// side to the eye or lie between samples. What the driver's rounding might decide otherwise is kept.
     void cull(const TriangleView& view, std::span<const Vertex> vertices, std::vector<uint32_t>& indices, size_t first);

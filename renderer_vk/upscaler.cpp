@@ -62,7 +62,7 @@ void Upscaler::warm(TargetImages& from, TargetImages& to) {
         become(from.color, access::kFragmentSample);
         become(target, access::kColorAttachment);
         const Attachment color{.view = target.view()};
-        beginRendering(commands, target.extent(), std::span(&color, 1));
+        beginRendering(commands, target.extent(), color);
         draw(commands, set, {}, {1, 1}, {{0, 0}, {1, 1}});
         vkCmdEndRenderingKHR(commands);
     });
@@ -108,7 +108,7 @@ void Upscaler::addPass(FrameGraph& graph, ImageId world, const VkRect2D& drawn, 
         [this, world, drawn, shown, current = targets](PassContext& pass) {
             const VkDescriptorSet set = pass.makeSet(m_layout, {bindSampledImage(0, pass.view(world), m_sampler)});
             const Attachment color = colorAttachment(pass, current);
-            beginRendering(pass.commands(), pass.extent(current.color), std::span(&color, 1));
+            beginRendering(pass.commands(), pass.extent(current.color), color);
             draw(pass.commands(), set, drawn, pass.extent(world), shown);
             vkCmdEndRenderingKHR(pass.commands());
         });

@@ -2,6 +2,7 @@
 // Working state of one view while its draw list is made; shared by the parts of DrawListBuilder.
 
 #include "renderer_vk/draw_list.hpp"
+#include "scene/busy_frame.hpp"
 
 namespace q3rt {
 
@@ -15,6 +16,18 @@ struct DrawListBuilder::ViewMemory {
     std::vector<CullResult> entityCull;
     std::vector<ViewFlare> flares;
     std::vector<int> deformedSurface; ///< by world surface: index in geometry.surfaces, -1 drawn as it is
+
+    void reserve(size_t worldSurfaceCount) {
+        visible.surfaces.reserve(worldSurfaceCount);
+        visible.surfaceLeaf.reserve(worldSurfaceCount);
+        deformedSurface.reserve(worldSurfaceCount);
+        items.reserve(worldSurfaceCount + busyFrame::kSurfaces);
+        geometry.reserve();
+        entityIndices.reserve(busyFrame::kEntities);
+        entityCull.reserve(busyFrame::kEntities);
+        fogIndices.reserve(busyFrame::kSmall);
+        flares.reserve(busyFrame::kSmall);
+    }
 };
 
 struct DrawListBuilder::ViewWork {

@@ -57,14 +57,12 @@ std::optional<SceneEntity> entityFrom(const refEntity_t& entity) {
     return result;
 }
 
-std::vector<PolyVertex> polyVerticesFrom(std::span<const polyVert_t> vertices) {
-    std::vector<PolyVertex> result;
-    result.reserve(vertices.size());
-    for (const polyVert_t& vertex : vertices)
-        result.push_back({vectorFrom(vertex.xyz),
-                          {vertex.st[0], vertex.st[1]},
-                          {vertex.modulate[0], vertex.modulate[1], vertex.modulate[2], vertex.modulate[3]}});
-    return result;
+void storePolyVertices(std::span<const polyVert_t> from, std::vector<PolyVertex>& to) {
+    to.clear();
+    for (const polyVert_t& vertex : from)
+        to.push_back({vectorFrom(vertex.xyz),
+                      {vertex.st[0], vertex.st[1]},
+                      {vertex.modulate[0], vertex.modulate[1], vertex.modulate[2], vertex.modulate[3]}});
 }
 
 SceneView viewFrom(const refdef_t& view) {

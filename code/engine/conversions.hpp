@@ -14,7 +14,7 @@ vec3 vectorFrom(const float* xyz);
 void storeVector(const vec3& from, float* xyz);
 /// nullopt: the entity's place is not a number, so it can't be drawn. Throws UsageError for an unknown kind.
 std::optional<SceneEntity> entityFrom(const refEntity_t& entity);
-std::vector<PolyVertex> polyVerticesFrom(std::span<const polyVert_t> vertices);
+void storePolyVertices(std::span<const polyVert_t> from, std::vector<PolyVertex>& to);
 SceneView viewFrom(const refdef_t& view);
 void storeDisplay(const DisplayInfo& display, glconfig_t& config);
 void storeOrientation(const Orientation& from, orientation_t& to);

@@ -32,7 +32,7 @@ class EngineImports::EngineCvar : public Cvar {
   public:
     explicit EngineCvar(cvar_t* cvar)
         : m_cvar(cvar) {}
-    std::string string() const override { return m_cvar->string ? m_cvar->string : ""; }
+    std::string_view string() const override { return m_cvar->string ? m_cvar->string : ""; }
     float value() const override { return m_cvar->value; }
     int integer() const override { return m_cvar->integer; }
     bool takeModified() override {

@@ -24,11 +24,19 @@ void raiseError(Severity severity, const char* text) {
 
 void runEngineCommand();
 
+/// What calls hand over, kept from call to call for its memory.
+struct CallBuffers {
+    std::vector<PolyVertex> polyVertices;
+    std::vector<vec3> markPolygon, markPoints;
+    std::vector<MarkFragment> markFragments;
+};
+
 /// Alive from the first BeginRegistration to the end of Shutdown(1).
 struct Module {
     Guard guard{&raiseError};
     EngineImports services{theImports, guard, &runEngineCommand};
     std::unique_ptr<Renderer> renderer;
+    CallBuffers buffers;
     bool registered = false; ///< between BeginRegistration and Shutdown: other calls are ignored outside
 };
 Module* theModule = nullptr;
@@ -160,7 +168,9 @@ void addPolys(qhandle_t shader, int vertexCount, const polyVert_t* vertices, int
     guarded([&](Renderer& renderer) {
         if (vertexCount <= 0 || polyCount <= 0 || !vertices) return;
         const size_t total = static_cast<size_t>(vertexCount) * static_cast<size_t>(polyCount);
-        renderer.addPolys(shader, static_cast<size_t>(vertexCount), polyVerticesFrom({vertices, total}));
+        std::vector<PolyVertex>& converted = theModule->buffers.polyVertices;
+        storePolyVertices({vertices, total}, converted);
+        renderer.addPolys(shader, static_cast<size_t>(vertexCount), converted);
     });
 }
 
@@ -244,10 +254,12 @@ int markFragments(int pointCount, const vec3_t* points, const vec3_t projection,
     int count = 0;
     guarded([&](Renderer& renderer) {
         if (pointCount < 3 || maxPoints <= 0 || maxFragments <= 0) return;
-        std::vector<vec3> polygon, clipped;
+        auto& [unused, polygon, clipped, fragments] = theModule->buffers;
+        polygon.clear();
+        clipped.clear();
+        fragments.clear();
         for (int i = 0; i < pointCount; ++i)
             polygon.push_back(vectorFrom(points[i]));
-        std::vector<MarkFragment> fragments;
         renderer.markFragments(polygon, vectorFrom(projection), static_cast<size_t>(maxPoints), clipped,
                                static_cast<size_t>(maxFragments), fragments);
         const size_t pointTotal = std::min(clipped.size(), static_cast<size_t>(maxPoints));

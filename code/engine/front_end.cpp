@@ -76,6 +76,7 @@ DisplayInfo FrontEnd::beginRegistration() {
         return handle;
     };
     m_models = std::make_unique<ModelLibrary>(m_engine, *m_materials);
+    m_frame.reserve();
     onContentCreated();
     return m_display;
 }
@@ -276,8 +277,8 @@ void FrontEnd::runVideos() {
 int FrontEnd::markFragments(const std::vector<vec3>& polygon, const vec3& projection, size_t maxPoints,
                             std::vector<vec3>& points, size_t maxFragments, std::vector<MarkFragment>& fragments) {
     if (!m_world || polygon.empty()) return 0;
-    return q3rt::markFragments(*m_world, *m_materials, polygon, projection, maxPoints, points, maxFragments, fragments,
-                               m_settings.r_marksOnTriangleMeshes != 0);
+    return m_marks.clip(*m_world, *m_materials, polygon, projection, maxPoints, points, maxFragments, fragments,
+                        m_settings.r_marksOnTriangleMeshes != 0);
 }
 
 bool FrontEnd::lightForPoint(const vec3& point, GridLight& light) {

@@ -141,6 +141,7 @@ class FrontEnd : public Renderer {
     std::unique_ptr<MaterialLibrary> m_materials;
     std::unique_ptr<ModelLibrary> m_models;
     std::unique_ptr<World> m_world;
+    MarkClipper m_marks;
     std::vector<int> m_videos; ///< cinematic handles of videoMaps
     FrameCommands m_frame;
     uint32_t m_firstEntity = 0, m_firstPoly = 0, m_firstLight = 0;

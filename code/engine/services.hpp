@@ -25,7 +25,7 @@ inline constexpr int kArchive = 0x1, kInit = 0x10, kLatch = 0x20, kReadOnly = 0x
 class Cvar {
   public:
     virtual ~Cvar() = default;
-    virtual std::string string() const = 0;
+    virtual std::string_view string() const = 0; ///< until it changes
     virtual float value() const = 0;
     virtual int integer() const = 0;
     /// True once after each change.

@@ -19,7 +19,7 @@ void FrameGraph::compile() {
 void FrameGraph::cullPasses() {
     // Backwards: a pass is needed if it is kept, writes something that outlives the frame, or writes what a later
     // needed pass uses. A write keeps what was there, so it needs the earlier writers too.
-    std::vector<bool> needed(m_resources.size(), false);
+    std::pmr::vector<bool> needed(m_resources.size(), false, m_memory);
     for (size_t i = 0; i < m_resources.size(); ++i)
         needed[i] = m_resources[i].imported;
     for (size_t i = m_passes.size(); i-- > 0;) {
@@ -64,17 +64,19 @@ Access mergeUses(const GraphPass& pass, uint32_t resource) {
 /// What has happened to a resource up to the pass at hand. A change of layout counts as a write that is available and
 /// visible to the reads it was made for.
 struct Tracked {
+    explicit Tracked(std::pmr::memory_resource* memory)
+        : visible(memory) {}
     VkPipelineStageFlags2 writeStages = 0;
-    VkAccessFlags2 writeAccess = 0;       // still to be made available; 0 once a barrier has done so
-    VkPipelineStageFlags2 readStages = 0; // reads since the write
-    std::vector<ResourceState> visible;   // who sees the write already
+    VkAccessFlags2 writeAccess = 0;          // still to be made available; 0 once a barrier has done so
+    VkPipelineStageFlags2 readStages = 0;    // reads since the write
+    std::pmr::vector<ResourceState> visible; // who sees the write already
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
     bool used = false;
 };
 
 /// Starts from what the last frame left behind.
-Tracked startFrom(const ResourceState& initial) {
-    Tracked tracked;
+Tracked startFrom(const ResourceState& initial, std::pmr::memory_resource* memory) {
+    Tracked tracked(memory);
     tracked.layout = initial.layout;
     tracked.writeStages = initial.stages;
     tracked.writeAccess = writesOf(initial.access);
@@ -119,13 +121,13 @@ bool advance(Tracked& now, const Access& next, bool image, ResourceState& from) 
 } // namespace
 
 void FrameGraph::placeBarriers() {
-    std::vector<Tracked> tracked;
+    std::pmr::vector<Tracked> tracked(m_memory);
     for (const GraphResource& resource : m_resources)
-        tracked.push_back(startFrom(resource.initial));
+        tracked.push_back(startFrom(resource.initial, m_memory));
 
     for (GraphPass& pass : m_passes) {
         if (pass.culled) continue;
-        std::vector<uint32_t> done;
+        std::pmr::vector<uint32_t> done(m_memory);
         for (const GraphUse& use : pass.uses) {
             if (std::find(done.begin(), done.end(), use.resource) != done.end()) continue;
             done.push_back(use.resource);
@@ -148,10 +150,10 @@ std::string FrameGraph::print() const {
     std::string text;
     for (size_t i = 0; i < m_passes.size(); ++i) {
         const GraphPass& pass = m_passes[i];
-        text += formatText("%zu %s%s\n", i, pass.name.c_str(), pass.culled ? " (dropped)" : "");
+        text += formatText("%zu %s%s\n", i, pass.name.data(), pass.culled ? " (dropped)" : "");
         for (const GraphBarrier& barrier : pass.barriers) {
             const GraphResource& resource = m_resources[barrier.resource];
-            text += formatText("    %s: %s %s", resource.name.c_str(), stageText(barrier.from.stages).c_str(),
+            text += formatText("    %s: %s %s", resource.name.data(), stageText(barrier.from.stages).c_str(),
                                accessText(barrier.from.access).c_str());
             if (resource.image) text += " " + layoutText(barrier.from.layout);
             text +=

@@ -70,7 +70,7 @@ void FrameExecutor::run(FrameGraph& graph, FrameRing& ring) {
         const GraphPass& pass = graph.passes()[i];
         if (pass.culled) continue;
         takeResources(graph, i);
-        m_device.beginLabel(commands, pass.name.c_str());
+        m_device.beginLabel(commands, pass.name.data());
         const uint32_t row = ring.timers().begin(commands, pass.name);
         emitBarriers(commands, graph, pass);
         if (pass.record) pass.record(context);
@@ -108,7 +108,7 @@ GpuImage* FrameExecutor::takeImage(const GraphResource& resource) {
                                                                 .mipCount = info.mipCount,
                                                                 .layerCount = info.layerCount,
                                                                 .samples = info.samples,
-                                                                .name = resource.name});
+                                                                .name = std::string(resource.name)});
     m_images.push_back({info, resource.imageUsage, std::move(image), m_frame, true});
     return m_images.back().image.get();
 }
@@ -122,14 +122,16 @@ Buffer* FrameExecutor::takeBuffer(const GraphResource& resource) {
     }
     auto buffer = std::make_unique<Buffer>(
         m_device, BufferInfo{resource.bytes, resource.bufferUsage | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                             MemoryDomain::DeviceLocal, resource.name});
+                             MemoryDomain::DeviceLocal, std::string(resource.name)});
     m_buffers.push_back({resource.bytes, resource.bufferUsage, std::move(buffer), m_frame, true});
     return m_buffers.back().buffer.get();
 }
 
 void FrameExecutor::emitBarriers(VkCommandBuffer commands, const FrameGraph& graph, const GraphPass& pass) {
-    std::vector<VkImageMemoryBarrier2> images;
-    std::vector<VkMemoryBarrier2> memory;
+    std::vector<VkImageMemoryBarrier2>& images = m_imageBarriers;
+    std::vector<VkMemoryBarrier2>& memory = m_memoryBarriers;
+    images.clear();
+    memory.clear();
     for (const GraphBarrier& barrier : pass.barriers) {
         const GraphResource& resource = graph.resources()[barrier.resource];
         if (resource.image) {

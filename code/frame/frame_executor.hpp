@@ -86,6 +86,8 @@ class FrameExecutor {
     uint64_t m_frame = 0;
     std::vector<GpuImage*> m_boundImages; // by resource index, while running
     std::vector<Buffer*> m_boundBuffers;
+    std::vector<VkImageMemoryBarrier2> m_imageBarriers; // of the pass at hand
+    std::vector<VkMemoryBarrier2> m_memoryBarriers;
 };
 
 } // namespace q3rt

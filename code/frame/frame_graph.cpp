@@ -22,7 +22,7 @@ BufferId PassBuilder::write(BufferId buffer, const Access& how) {
 
 ImageId PassBuilder::create(const char* name, const GraphImageInfo& info, const Access& how) {
     GraphResource resource;
-    resource.name = name;
+    resource.name = m_graph.keepName(name);
     resource.info = info;
     const uint32_t index = m_graph.addResource(std::move(resource));
     const ImageId made = write(ImageId{index, 0}, how);
@@ -32,7 +32,7 @@ ImageId PassBuilder::create(const char* name, const GraphImageInfo& info, const 
 
 BufferId PassBuilder::create(const char* name, VkDeviceSize bytes, const Access& how) {
     GraphResource resource;
-    resource.name = name;
+    resource.name = m_graph.keepName(name);
     resource.image = false;
     resource.bytes = bytes;
     const uint32_t index = m_graph.addResource(std::move(resource));
@@ -43,16 +43,13 @@ BufferId PassBuilder::create(const char* name, VkDeviceSize bytes, const Access&
 
 void PassBuilder::keep() { m_graph.m_passes[m_pass].kept = true; }
 
-void FrameGraph::addDeclared(const char* name, const std::function<void(PassBuilder&)>& declare,
-                             std::function<void(PassContext&)> record) {
+PassBuilder FrameGraph::beginPass(const char* name) {
     if (m_compiled) throw UsageError(formatText("pass \"%s\" is added to a compiled frame", name));
-    GraphPass pass;
-    pass.name = name;
-    pass.record = std::move(record);
-    m_passes.push_back(std::move(pass));
-    PassBuilder builder(*this, static_cast<uint32_t>(m_passes.size() - 1));
-    declare(builder);
+    m_passes.emplace_back(m_memory).name = keepName(name);
+    return PassBuilder(*this, static_cast<uint32_t>(m_passes.size() - 1));
 }
+
+std::string_view FrameGraph::keepName(const char* name) { return m_names.emplace_back(name); }
 
 uint32_t FrameGraph::addResource(GraphResource resource) {
     resource.final = resource.initial;
@@ -62,7 +59,7 @@ uint32_t FrameGraph::addResource(GraphResource resource) {
 
 ImageId FrameGraph::importImage(const char* name, const GraphImageInfo& info, const ResourceState& initial) {
     GraphResource resource;
-    resource.name = name;
+    resource.name = keepName(name);
     resource.info = info;
     resource.imported = true;
     resource.initial = initial;
@@ -71,7 +68,7 @@ ImageId FrameGraph::importImage(const char* name, const GraphImageInfo& info, co
 
 BufferId FrameGraph::importBuffer(const char* name, const ResourceState& initial) {
     GraphResource resource;
-    resource.name = name;
+    resource.name = keepName(name);
     resource.image = false;
     resource.imported = true;
     resource.initial = initial;
@@ -102,22 +99,22 @@ const GraphImageInfo& FrameGraph::info(ImageId image) const {
 uint32_t FrameGraph::use(uint32_t pass, uint32_t resource, uint32_t version, const Access& how, bool write) {
     GraphPass& user = m_passes[pass];
     if (resource >= m_resources.size())
-        throw UsageError(formatText("pass \"%s\" uses a resource that was never made", user.name.c_str()));
+        throw UsageError(formatText("pass \"%s\" uses a resource that was never made", user.name.data()));
     GraphResource& used = m_resources[resource];
     if (version != used.version)
         throw UsageError(
             formatText("pass \"%s\" uses version %u of \"%s\", which pass order has already replaced by %u",
-                       user.name.c_str(), version, used.name.c_str(), used.version));
+                       user.name.data(), version, used.name.data(), used.version));
     if (write && !isWrite(how.access))
-        throw UsageError(formatText("pass \"%s\" writes \"%s\" with an access that only reads", user.name.c_str(),
-                                    used.name.c_str()));
+        throw UsageError(
+            formatText("pass \"%s\" writes \"%s\" with an access that only reads", user.name.data(), used.name.data()));
     if (used.image && how.layout == VK_IMAGE_LAYOUT_UNDEFINED)
         throw UsageError(
-            formatText("pass \"%s\" uses image \"%s\" without a layout", user.name.c_str(), used.name.c_str()));
+            formatText("pass \"%s\" uses image \"%s\" without a layout", user.name.data(), used.name.data()));
     for (const GraphUse& other : user.uses)
         if (other.resource == resource && used.image && other.how.layout != how.layout)
-            throw UsageError(formatText("pass \"%s\" wants image \"%s\" in two layouts at once", user.name.c_str(),
-                                        used.name.c_str()));
+            throw UsageError(formatText("pass \"%s\" wants image \"%s\" in two layouts at once", user.name.data(),
+                                        used.name.data()));
     if (write) ++used.version;
     user.uses.push_back({resource, write ? used.version : version, how, write, false});
     return used.version;

@@ -8,9 +8,12 @@
 // may only emit commands. Every write makes a new version of the handle; reading an old version after a write is an
 // error. A pass nobody needs (its results unread, nothing imported written, not kept) is dropped.
 
+#include <deque>
 #include <functional>
 #include <memory>
+#include <memory_resource>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -74,7 +77,7 @@ class PassBuilder {
 
 /// One resource of a frame.
 struct GraphResource {
-    std::string name;
+    std::string_view name; // a zero follows
     bool image = true;
     GraphImageInfo info;    // images
     VkDeviceSize bytes = 0; // buffers
@@ -111,29 +114,44 @@ struct GraphBarrier {
 };
 
 struct GraphPass {
-    std::string name;
-    std::vector<GraphUse> uses;
+    explicit GraphPass(std::pmr::memory_resource* memory)
+        : uses(memory)
+        , barriers(memory) {}
+    std::string_view name; // a zero follows
+    std::pmr::vector<GraphUse> uses;
     bool kept = false;
     bool culled = false;
     std::function<void(PassContext&)> record;
-    std::vector<GraphBarrier> barriers; // before the pass; filled by compile()
+    std::pmr::vector<GraphBarrier> barriers; // before the pass; filled by compile()
 };
 
 class FrameGraph {
   public:
+    /// `memory` outlives the graph; an arena spares the heap.
+    explicit FrameGraph(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+        : m_memory(memory)
+        , m_passes(memory)
+        , m_resources(memory)
+        , m_kept(memory)
+        , m_names(memory) {}
+
     /// `name` is the debug label, the timer row and the dump file's name. `declare(PassBuilder&)` may return a handle
     /// or a structure of handles (default-constructible): then `record(PassContext&, const Data&)` gets it, and so does
     /// the caller. Otherwise `record(PassContext&)`.
     template <typename Declare, typename Record>
     auto addPass(const char* name, Declare&& declare, Record&& record) {
         using Data = std::invoke_result_t<Declare&, PassBuilder&>;
+        PassBuilder builder = beginPass(name);
+        GraphPass& pass = m_passes.back();
+        // What the standard function holds is small enough for it to need no memory of its own.
+        auto* kept = keep(std::forward<Record>(record));
         if constexpr (std::is_void_v<Data>) {
-            addDeclared(name, declare, std::forward<Record>(record));
+            pass.record = [kept](PassContext& context) { (*kept)(context); };
+            declare(builder);
         } else {
-            const auto data = std::make_shared<Data>();
-            addDeclared(
-                name, [&](PassBuilder& pass) { *data = declare(pass); },
-                [data, record = std::forward<Record>(record)](PassContext& context) { record(context, *data); });
+            auto* data = keep(Data{});
+            pass.record = [kept, data](PassContext& context) { (*kept)(context, *data); };
+            *data = declare(builder);
             return *data;
         }
     }
@@ -159,22 +177,35 @@ class FrameGraph {
     /// The compiled frame: a line a pass, a line a barrier, lifetimes at the end.
     std::string print() const;
 
-    const std::vector<GraphPass>& passes() const { return m_passes; } // in order; `culled` ones don't run
-    const std::vector<GraphResource>& resources() const { return m_resources; }
+    const std::pmr::vector<GraphPass>& passes() const { return m_passes; } // in order; `culled` ones don't run
+    const std::pmr::vector<GraphResource>& resources() const { return m_resources; }
 
   private:
     friend class PassBuilder;
     friend class FrameExecutor;
-    void addDeclared(const char* name, const std::function<void(PassBuilder&)>& declare,
-                     std::function<void(PassContext&)> record);
+    PassBuilder beginPass(const char* name);
+    /// Puts it into the graph's memory, until the graph goes.
+    template <typename Value>
+    auto* keep(Value&& value) {
+        using Kept = std::decay_t<Value>;
+        auto held =
+            std::allocate_shared<Kept>(std::pmr::polymorphic_allocator<Kept>(m_memory), std::forward<Value>(value));
+        Kept* place = held.get();
+        m_kept.push_back(std::move(held));
+        return place;
+    }
+    std::string_view keepName(const char* name);
     uint32_t use(uint32_t pass, uint32_t resource, uint32_t version, const Access& how, bool write);
     uint32_t addResource(GraphResource resource);
     void cullPasses();
     void findLifetimes();
     void placeBarriers();
 
-    std::vector<GraphPass> m_passes;
-    std::vector<GraphResource> m_resources;
+    std::pmr::memory_resource* m_memory;
+    std::pmr::vector<GraphPass> m_passes;
+    std::pmr::vector<GraphResource> m_resources;
+    std::pmr::vector<std::shared_ptr<void>> m_kept;
+    std::pmr::deque<std::pmr::string> m_names; // which never move
     bool m_compiled = false;
 };
 

@@ -21,7 +21,7 @@ const GraphResource& PassContext::imageResource(ImageId image) const {
 GpuImage& PassContext::boundImage(ImageId image) const {
     const GraphResource& resource = imageResource(image);
     if (!m_images[image.index])
-        throw UsageError(formatText("image \"%s\" is used outside its life in the frame", resource.name.c_str()));
+        throw UsageError(formatText("image \"%s\" is used outside its life in the frame", resource.name.data()));
     return *m_images[image.index];
 }
 

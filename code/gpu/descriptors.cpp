@@ -65,11 +65,9 @@ BoundResource bindAccelerationStructure(uint32_t slot, VkAccelerationStructureKH
 }
 
 void writeDescriptors(Device& device, VkDescriptorSet set, std::span<const BoundResource> resources) {
-    std::vector<VkWriteDescriptorSet> writes;
-    std::vector<VkWriteDescriptorSetAccelerationStructureKHR> accelerations(resources.size());
-    writes.reserve(resources.size());
-    for (size_t i = 0; i < resources.size(); ++i) {
-        const BoundResource& resource = resources[i];
+    for (const BoundResource& resource : resources) {
+        const VkWriteDescriptorSetAccelerationStructureKHR acceleration{
+            VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR, nullptr, 1, &resource.acceleration};
         VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
         write.dstSet = set;
         write.dstBinding = resource.slot;
@@ -78,14 +76,9 @@ void writeDescriptors(Device& device, VkDescriptorSet set, std::span<const Bound
         write.descriptorType = resource.type;
         write.pBufferInfo = &resource.buffer;
         write.pImageInfo = &resource.image;
-        if (resource.type == VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR) {
-            accelerations[i] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR, nullptr, 1,
-                                &resource.acceleration};
-            write.pNext = &accelerations[i];
-        }
-        writes.push_back(write);
+        if (resource.type == VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR) write.pNext = &acceleration;
+        vkUpdateDescriptorSets(device.handle(), 1, &write, 0, nullptr);
     }
-    vkUpdateDescriptorSets(device.handle(), static_cast<uint32_t>(writes.size()), writes.data(), 0, nullptr);
 }
 
 DescriptorArena::~DescriptorArena() {

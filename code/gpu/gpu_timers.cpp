@@ -73,13 +73,13 @@ void GpuTimers::ensurePool(VkCommandBuffer commands, Slot& slot, size_t pool) {
     }
 }
 
-uint32_t GpuTimers::begin(VkCommandBuffer commands, std::string name) {
+uint32_t GpuTimers::begin(VkCommandBuffer commands, std::string_view name) {
     Slot& slot = m_slots[m_slot];
     const Capabilities& can = m_device.capabilities();
     const auto row = static_cast<uint32_t>(slot.names.size());
     if (!enabled || can.timestampBits == 0 || can.timestampPeriodNs == 0) return row;
     ensurePool(commands, slot, row / kRowsPerPool);
-    slot.names.push_back(std::move(name));
+    slot.names.emplace_back(name);
     vkCmdWriteTimestamp2KHR(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot.pools[row / kRowsPerPool],
                             row % kRowsPerPool * 2);
     return row;

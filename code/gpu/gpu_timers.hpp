@@ -2,6 +2,7 @@
 // Milliseconds of each pass by timestamps, read back a frame later, so nothing waits.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gpu/vulkan_api.hpp"
@@ -29,7 +30,7 @@ class GpuTimers {
     /// The frame's commands will never run: forgets its rows.
     void abandonFrame() { m_slots[m_slot].names.clear(); }
     /// Rows may nest or follow each other; any number of them. A name used twice makes two rows.
-    uint32_t begin(VkCommandBuffer commands, std::string name);
+    uint32_t begin(VkCommandBuffer commands, std::string_view name);
     void end(VkCommandBuffer commands, uint32_t row);
     /// Of the newest finished frame, in order of begin(). Empty if the device has no timestamps.
     const std::vector<TimerRow>& results() const { return m_results; }

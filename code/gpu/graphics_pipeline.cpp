@@ -121,18 +121,15 @@ void GraphicsPipeline::warmUp(VkCommandBuffer commands) const {
     vkCmdDraw(commands, 3, 1, 0, 0);
 }
 
-void beginRendering(VkCommandBuffer commands, VkExtent2D extent, std::span<const Attachment> colors,
-                    const Attachment& depth) {
-    std::vector<VkRenderingAttachmentInfoKHR> colorInfos;
-    for (const Attachment& color : colors)
-        colorInfos.push_back(attachmentInfo(color, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL));
+void beginRendering(VkCommandBuffer commands, VkExtent2D extent, const Attachment& color, const Attachment& depth) {
+    const VkRenderingAttachmentInfoKHR colorInfo = attachmentInfo(color, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
     const VkRenderingAttachmentInfoKHR depthInfo =
         attachmentInfo(depth, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
     VkRenderingInfoKHR rendering{VK_STRUCTURE_TYPE_RENDERING_INFO_KHR};
     rendering.renderArea = {{0, 0}, extent};
     rendering.layerCount = 1;
-    rendering.colorAttachmentCount = static_cast<uint32_t>(colorInfos.size());
-    rendering.pColorAttachments = colorInfos.data();
+    rendering.colorAttachmentCount = 1;
+    rendering.pColorAttachments = &colorInfo;
     rendering.pDepthAttachment = depth.view ? &depthInfo : nullptr;
     rendering.pStencilAttachment = depth.view && depth.stencil ? &depthInfo : nullptr;
     vkCmdBeginRenderingKHR(commands, &rendering);

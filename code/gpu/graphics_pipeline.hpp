@@ -72,7 +72,6 @@ struct Attachment {
 
 /// Begins dynamic rendering over `extent` with a full viewport (depth 0..1, y down as Vulkan has it) and scissor.
 /// End with vkCmdEndRenderingKHR. A depth attachment without view: none.
-void beginRendering(VkCommandBuffer commands, VkExtent2D extent, std::span<const Attachment> colors,
-                    const Attachment& depth = {});
+void beginRendering(VkCommandBuffer commands, VkExtent2D extent, const Attachment& color, const Attachment& depth = {});
 
 } // namespace q3rt

@@ -2,6 +2,7 @@
 
 #include "scene/entity_geometry.hpp"
 
+#include "scene/busy_frame.hpp"
 #include "scene/entity_geometry_build.hpp"
 #include "scene/world_math.hpp"
 
@@ -50,6 +51,17 @@ void addEntity(const ViewBuild& build, const SceneEntity& entity, int sceneIndex
 }
 
 } // namespace
+
+void ViewGeometry::reserve() {
+    entities.reserve(busyFrame::kEntities);
+    surfaces.reserve(busyFrame::kSurfaces);
+    vertices.reserve(busyFrame::kVertices);
+    indices.reserve(busyFrame::kIndices);
+    batchVertices.reserve(busyFrame::kWorkVertices);
+    batchIndices.reserve(busyFrame::kWorkVertices * 6);
+    bones.reserve(busyFrame::kSmall);
+    recordOfInlineModel.reserve(busyFrame::kSmall);
+}
 
 void ViewGeometry::clear() {
     entities.clear();

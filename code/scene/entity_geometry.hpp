@@ -48,7 +48,8 @@ struct ViewGeometry {
     std::vector<EntitySurface> surfaces;
     std::vector<Vertex> vertices; ///< model space of their entity (world space for entity 0, sprites, rails, polys)
     std::vector<uint32_t> indices;
-    void clear(); ///< keeps the memory
+    void reserve(); ///< room for a busy view
+    void clear();   ///< keeps the memory
 
     // Work space of the builder, kept from frame to frame so that a steady frame allocates nothing.
     std::vector<Vertex> batchVertices;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "scene/busy_frame.hpp"
 #include "scene/world.hpp"
 #include "scene/world_math.hpp"
 
@@ -38,15 +39,18 @@ BoxSide classifyBox(const Bounds& box, const Plane& plane) {
     return static_cast<BoxSide>(side);
 }
 
+} // namespace
+
 /// The convex volume of a mark: what is inside is in front of every plane.
-struct MarkVolume {
+struct MarkClipper::Volume {
     Bounds box;
     vec3 direction{0}; ///< of projection, unit
-    std::vector<Plane> planes;
+    std::vector<Plane>& planes;
 };
 
-MarkVolume makeVolume(const std::vector<vec3>& polygon, const vec3& projection) {
-    MarkVolume volume;
+MarkClipper::Volume MarkClipper::makeVolume(const std::vector<vec3>& polygon, const vec3& projection) {
+    m_planes.clear();
+    Volume volume{.planes = m_planes};
     const size_t count = std::min(polygon.size(), kMaxPolygonPoints);
     volume.direction = normalizeOrZero(projection);
     for (size_t i = 0; i < count; ++i) {
@@ -63,20 +67,25 @@ MarkVolume makeVolume(const std::vector<vec3>& polygon, const vec3& projection) 
     return volume;
 }
 
-bool takesMarks(const MaterialLibrary& materials, const MarkVolume& volume, const WorldSurface& surface) {
+namespace {
+
+bool takesMarks(const MaterialLibrary& materials, const Bounds& box, const vec3& direction,
+                const WorldSurface& surface) {
     if (!surface.drawn) return false;
     const Material& material = materials.get(surface.material);
     if (material.surfaceFlags & (surfaceParm::kNoImpact | surfaceParm::kNoMarks)) return false;
     if (material.contentFlags & surfaceParm::kContentsFog) return false;
     if (surface.type != BspSurfaceType::Planar) return surface.type != BspSurfaceType::Flare;
-    return classifyBox(volume.box, surface.plane) == kBoth &&
-           glm::dot(surface.plane.normal, volume.direction) <= kPlanarFacing;
+    return classifyBox(box, surface.plane) == kBoth && glm::dot(surface.plane.normal, direction) <= kPlanarFacing;
 }
 
+} // namespace
+
 /// Surfaces of all leafs that the box touches, in leaf order, each once.
-std::vector<int> findSurfaces(const World& world, const MaterialLibrary& materials, const MarkVolume& volume) {
-    std::vector<int> found;
-    std::vector<int> open{world.bsp.nodes.empty() ? -1 : 0};
+void MarkClipper::findSurfaces(const World& world, const MaterialLibrary& materials, const Volume& volume) {
+    std::vector<int>&found = m_surfaces, &open = m_openNodes;
+    found.clear();
+    open.assign({world.bsp.nodes.empty() ? -1 : 0});
     while (!open.empty()) {
         const int child = open.back();
         open.pop_back();
@@ -90,12 +99,14 @@ std::vector<int> findSurfaces(const World& world, const MaterialLibrary& materia
         const BspLeaf& leaf = world.bsp.leafs[static_cast<size_t>(-1 - child)];
         for (int i = 0; i < leaf.leafSurfaceCount && found.size() < kMaxSurfaces; ++i) {
             const int number = world.bsp.leafSurfaces[static_cast<size_t>(leaf.firstLeafSurface + i)];
-            if (!takesMarks(materials, volume, world.surfaces[static_cast<size_t>(number)])) continue;
+            if (!takesMarks(materials, volume.box, volume.direction, world.surfaces[static_cast<size_t>(number)]))
+                continue;
             if (std::find(found.begin(), found.end(), number) == found.end()) found.push_back(number);
         }
     }
-    return found;
 }
+
+namespace {
 
 /// Keeps what lies in front of the plane. A polygon that is nowhere clearly in front vanishes.
 void clipPolygon(std::vector<vec3>& polygon, const Plane& plane, std::vector<vec3>& scratch) {
@@ -123,29 +134,33 @@ void clipPolygon(std::vector<vec3>& polygon, const Plane& plane, std::vector<vec
     polygon.swap(scratch);
 }
 
+} // namespace
+
 /// The caller's buffers and their limits.
-struct MarkOutput {
+struct MarkClipper::Output {
     size_t maxPoints, maxFragments;
     std::vector<vec3>& points;
     std::vector<MarkFragment>& fragments;
     size_t firstPoint, firstFragment;
-    std::vector<vec3> polygon, scratch; // reused from triangle to triangle
 
     bool full() const { return fragments.size() - firstFragment >= maxFragments; }
-
-    void addTriangle(const MarkVolume& volume, const vec3* corners) {
-        polygon.assign(corners, corners + 3);
-        for (const Plane& plane : volume.planes) {
-            clipPolygon(polygon, plane, scratch);
-            if (polygon.empty()) return;
-        }
+    void add(const std::vector<vec3>& polygon) {
         if (points.size() - firstPoint + polygon.size() > maxPoints) return; // this fragment alone is left out
         fragments.push_back({static_cast<int>(points.size() - firstPoint), static_cast<int>(polygon.size())});
         points.insert(points.end(), polygon.begin(), polygon.end());
     }
 };
 
-void markSurface(const World& world, const MarkVolume& volume, const WorldSurface& surface, MarkOutput& out) {
+void MarkClipper::clipTriangle(const Volume& volume, const vec3* corners, Output& out) {
+    m_polygon.assign(corners, corners + 3);
+    for (const Plane& plane : volume.planes) {
+        clipPolygon(m_polygon, plane, m_scratch);
+        if (m_polygon.empty()) return;
+    }
+    out.add(m_polygon);
+}
+
+void MarkClipper::clipSurface(const World& world, const Volume& volume, const WorldSurface& surface, Output& out) {
     for (uint32_t i = 0; i + 2 < surface.indexCount && !out.full(); i += 3) {
         vec3 corners[3];
         for (uint32_t k = 0; k < 3; ++k) {
@@ -156,23 +171,30 @@ void markSurface(const World& world, const MarkVolume& volume, const WorldSurfac
             const float limit = i % 6 == 0 ? kPatchFacingFirst : kPatchFacingSecond;
             if (glm::dot(normal, volume.direction) >= limit) continue;
         }
-        out.addTriangle(volume, corners);
+        clipTriangle(volume, corners, out);
     }
 }
 
-} // namespace
+MarkClipper::MarkClipper() {
+    m_planes.reserve(busyFrame::kSmall);
+    m_surfaces.reserve(kMaxSurfaces);
+    m_openNodes.reserve(busyFrame::kSmall);
+    m_polygon.reserve(busyFrame::kSmall);
+    m_scratch.reserve(busyFrame::kSmall);
+}
 
-int markFragments(const World& world, const MaterialLibrary& materials, const std::vector<vec3>& polygon,
-                  const vec3& projection, size_t maxPoints, std::vector<vec3>& points, size_t maxFragments,
-                  std::vector<MarkFragment>& fragments, bool onTriangleSoups) {
+int MarkClipper::clip(const World& world, const MaterialLibrary& materials, const std::vector<vec3>& polygon,
+                      const vec3& projection, size_t maxPoints, std::vector<vec3>& points, size_t maxFragments,
+                      std::vector<MarkFragment>& fragments, bool onTriangleSoups) {
     if (polygon.empty()) return 0;
-    const MarkVolume volume = makeVolume(polygon, projection);
-    MarkOutput out{maxPoints, maxFragments, points, fragments, points.size(), fragments.size(), {}, {}};
-    for (const int number : findSurfaces(world, materials, volume)) {
+    const Volume volume = makeVolume(polygon, projection);
+    Output out{maxPoints, maxFragments, points, fragments, points.size(), fragments.size()};
+    findSurfaces(world, materials, volume);
+    for (const int number : m_surfaces) {
         const WorldSurface& surface = world.surfaces[static_cast<size_t>(number)];
         if (surface.type == BspSurfaceType::TriangleSoup && !onTriangleSoups) continue;
         if (out.full()) break;
-        markSurface(world, volume, surface, out);
+        clipSurface(world, volume, surface, out);
     }
     return static_cast<int>(fragments.size() - out.firstFragment);
 }

@@ -1,6 +1,16 @@
 #include "scene/scene_types.hpp"
 
+#include "scene/busy_frame.hpp"
+
 namespace q3rt {
+
+void FrameCommands::reserve() {
+    commands.reserve(busyFrame::kPictures);
+    entities.reserve(busyFrame::kEntities);
+    polys.reserve(busyFrame::kPolys);
+    polyVertices.reserve(busyFrame::kPolys * 4);
+    lights.reserve(busyFrame::kLights);
+}
 
 void FrameCommands::clear() {
     commands.clear();

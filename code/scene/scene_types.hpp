@@ -104,6 +104,7 @@ struct FrameCommands {
     std::vector<ScenePoly> polys;
     std::vector<PolyVertex> polyVertices;
     std::vector<SceneLight> lights;
+    void reserve(); ///< room for a busy frame
     void clear();
 };
 

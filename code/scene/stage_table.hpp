@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "scene/busy_frame.hpp"
 #include "scene/material.hpp"
 #include "shaders/shared/stage.h"
 
@@ -26,7 +27,10 @@ class StageTable {
     StageTable(const MaterialLibrary& materials, const TextureLibrary& textures, float identityLight)
         : m_materials(materials)
         , m_textures(textures)
-        , m_identityLight(identityLight) {}
+        , m_identityLight(identityLight) {
+        m_states.reserve(busyFrame::kStages);
+        m_keys.reserve(busyFrame::kStages);
+    }
     /// Forgets the last frame. Keeps its memory.
     void beginFrame();
     /// Follows remapping (one level): pass the surface's own material. Materials that share stages share ranges.

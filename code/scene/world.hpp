@@ -87,7 +87,7 @@ struct World {
     std::vector<PatchGrid> patches;
     std::vector<FogVolume> fogs; ///< [0] unused: fog numbers start at 1
     LightGrid grid;
-    Bounds bounds;           ///< of all drawn vertices (the models lump is too small on oa_dm3)
+    Bounds bounds; ///< of all drawn vertices (the models lump is too small on oa_dm3)
     int entityTokenOffset = 0;
     /// Drawn surfaces that share a material, surface numbers ascending: a look at each material finds all its surfaces.
     struct MaterialGroup {
@@ -120,9 +120,27 @@ TessellatedPatch tessellatePatch(int width, int height, const std::vector<Vertex
 struct MarkFragment {
     int firstPoint = 0, pointCount = 0;
 };
-/// Clips a convex polygon, swept along `projection`, against the world. Appends points and fragments up to the limits.
-int markFragments(const World& world, const MaterialLibrary& materials, const std::vector<vec3>& polygon,
-                  const vec3& projection, size_t maxPoints, std::vector<vec3>& points, size_t maxFragments,
-                  std::vector<MarkFragment>& fragments, bool onTriangleSoups);
+class MarkClipper {
+  public:
+    MarkClipper();
+    /// Clips a convex polygon, swept along `projection`, against the world. Appends points and fragments up to the
+    /// limits; their number.
+    int clip(const World& world, const MaterialLibrary& materials, const std::vector<vec3>& polygon,
+             const vec3& projection, size_t maxPoints, std::vector<vec3>& points, size_t maxFragments,
+             std::vector<MarkFragment>& fragments, bool onTriangleSoups);
+
+  private:
+    struct Volume;
+    struct Output;
+    Volume makeVolume(const std::vector<vec3>& polygon, const vec3& projection);
+    void findSurfaces(const World& world, const MaterialLibrary& materials, const Volume& volume);
+    void clipTriangle(const Volume& volume, const vec3* corners, Output& out);
+    void clipSurface(const World& world, const Volume& volume, const WorldSurface& surface, Output& out);
+
+    // Work space, kept from mark to mark.
+    std::vector<Plane> m_planes;
+    std::vector<int> m_surfaces, m_openNodes;
+    std::vector<vec3> m_polygon, m_scratch;
+};
 
 } // namespace q3rt

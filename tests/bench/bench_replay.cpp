@@ -1,6 +1,6 @@
 // bench_replay RECORDING MODULE WIDTHxHEIGHT FIRST COUNT [CVAR=VALUE]...: what a frame of a recording costs a renderer
-// module. One line of JSON: processor time of all threads, wall time, peak memory. The frames are read into memory
-// first; 50 frames before FIRST are drawn and not counted.
+// module. One line of JSON: processor time of all threads, wall time, heap allocations of our own, memory. The frames
+// are read into memory first; 50 frames before FIRST are drawn and not counted.
 
 #include <chrono>
 #include <cstdio>
@@ -13,6 +13,7 @@
 #include "host/headless/replayer.hpp"
 #include "host/session.hpp"
 #include "metrics/statistics.hpp"
+#include "support/allocation_count.hpp"
 
 namespace {
 
@@ -60,18 +61,24 @@ void measure(int argc, char** argv) {
             frames.push_back(std::move(frame));
     }
     std::vector<double> wallMs;
+    wallMs.reserve(frames.size());
     double startMs = 0;
+    uint64_t startAllocations = 0, framesAllocating = 0;
     auto start = std::chrono::steady_clock::now();
     for (const Recording::Frame& frame : frames) {
         if (frame.number == first) {
             startMs = processorMs();
+            startAllocations = test::allocationCount();
             start = std::chrono::steady_clock::now();
         }
+        const uint64_t before = test::allocationCount();
         const Replayer::Result result = replayer.play(frame, Replayer::Draw::Frame);
+        if (frame.number >= first && test::allocationCount() != before) ++framesAllocating;
         if (frame.number >= first) wallMs.push_back(result.wallMs);
     }
     if (wallMs.empty()) throw UsageError(std::string(argv[1]) + " has no such frames: choose others");
     const double wall = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    const uint64_t allocations = test::allocationCount() - startAllocations;
     const auto drawn = static_cast<double>(wallMs.size());
     const nlohmann::ordered_json line = {{"module", argv[2]},
                                          {"size", argv[3]},
@@ -80,6 +87,8 @@ void measure(int argc, char** argv) {
                                          {"wall_ms", wall / drawn},
                                          {"median_ms", computeQuantile(wallMs, 0.5)},
                                          {"p99_ms", computeQuantile(wallMs, 0.99)},
+                                         {"allocations", allocations},
+                                         {"frames_allocating", framesAllocating},
                                          {"peak_mb", peakMemoryMb()},
                                          {"device", engine.config().renderer_string}};
     std::printf("%s\n", line.dump().c_str());

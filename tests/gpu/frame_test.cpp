@@ -24,7 +24,7 @@ ImageId addTriangle(FrameGraph& graph, ImageId target, const GraphicsPipeline& p
         [&pipeline, target](PassContext& context) {
             const Attachment color{
                 context.view(target), VK_ATTACHMENT_LOAD_OP_CLEAR, {.color = {.float32 = {0, 0, 1, 1}}}};
-            beginRendering(context.commands(), context.extent(target), {{color}});
+            beginRendering(context.commands(), context.extent(target), color);
             pipeline.bind(context.commands());
             vkCmdDraw(context.commands(), 3, 1, 0, 0);
             vkCmdEndRenderingKHR(context.commands());
@@ -189,7 +189,7 @@ TEST_F(FrameTest, DepthIsTestedAndCanBeSampledAfterwards) {
                 return pass.create("depth", {kSize, VK_FORMAT_D32_SFLOAT}, access::kDepthAttachment);
             },
             [&pipeline, color, plane](PassContext& context, ImageId depth) {
-                const Attachment colors[] = {{context.view(color), VK_ATTACHMENT_LOAD_OP_CLEAR}};
+                const Attachment colors{context.view(color), VK_ATTACHMENT_LOAD_OP_CLEAR};
                 const Attachment depths{context.view(depth), VK_ATTACHMENT_LOAD_OP_CLEAR, {.depthStencil = {plane, 0}}};
                 beginRendering(context.commands(), context.extent(color), colors, depths);
                 pipeline.bind(context.commands());

@@ -119,7 +119,7 @@ TEST(RasterDraw, MapIsDrawnWithoutValidationMessages) {
     const std::vector<uint8_t> apart = drawFrame(renderer, services, view, shader);
     EXPECT_GT(renderer.pipelineCount(), warmed) << "no stages in view that share a pass";
     EXPECT_LE(largestDifference(first, apart), 1) << "stages in one pass change the picture";
-    EXPECT_NE(services.cvar("q3rt_stats", "", 0).string().find("\"world view\""), std::string::npos);
+    EXPECT_NE(services.cvar("q3rt_stats", "", 0).string().find("\"world view\""), std::string_view::npos);
     for (const std::string& message : renderer.messages())
         ADD_FAILURE() << message;
     renderer.shutdownRegistration();

@@ -15,7 +15,7 @@ class TestCvar final : public Cvar {
   public:
     explicit TestCvar(std::string text)
         : m_text(std::move(text)) {}
-    std::string string() const override { return m_text; }
+    std::string_view string() const override { return m_text; }
     float value() const override { return std::strtof(m_text.c_str(), nullptr); }
     int integer() const override { return static_cast<int>(std::strtol(m_text.c_str(), nullptr, 10)); }
     bool takeModified() override { return false; }

@@ -24,8 +24,8 @@ void useWorld(const World& world, SceneLibraries& libraries, MemoryFiles& files)
     world.inPvs(centre, vec3(0));
     std::vector<vec3> points;
     std::vector<MarkFragment> fragments;
-    markFragments(world, libraries.materials, {{-16, -16, 8}, {-16, 16, 8}, {16, 16, 8}, {16, -16, 8}}, vec3(0, 0, -20),
-                  384, points, 128, fragments, true);
+    MarkClipper().clip(world, libraries.materials, {{-16, -16, 8}, {-16, 16, 8}, {16, 16, 8}, {16, -16, 8}},
+                       vec3(0, 0, -20), 384, points, 128, fragments, true);
     ModelLibrary models(files, libraries.materials);
     models.addInlineModels(world);
     FrameCommands frame;

@@ -48,8 +48,8 @@ class MarksTest : public testing::Test {
     Marks mark(const World& world, const std::vector<vec3>& polygon, bool onSoups = false, size_t maxPoints = 384,
                size_t maxFragments = 128) {
         Marks marks;
-        marks.count = markFragments(world, m_libraries.materials, polygon, vec3(0, 0, -20), maxPoints, marks.points,
-                                    maxFragments, marks.fragments, onSoups);
+        marks.count = MarkClipper().clip(world, m_libraries.materials, polygon, vec3(0, 0, -20), maxPoints,
+                                         marks.points, maxFragments, marks.fragments, onSoups);
         return marks;
     }
 };
@@ -105,9 +105,9 @@ TEST_F(MarksTest, MaterialsCanRefuseMarks) {
     const World world = makeFloor(BspSurfaceType::Planar, material);
     std::vector<vec3> points;
     std::vector<MarkFragment> fragments;
-    EXPECT_EQ(
-        markFragments(world, libraries.materials, makePolygon(8), vec3(0, 0, -20), 384, points, 128, fragments, false),
-        0);
+    EXPECT_EQ(MarkClipper().clip(world, libraries.materials, makePolygon(8), vec3(0, 0, -20), 384, points, 128,
+                                 fragments, false),
+              0);
 }
 
 } // namespace

@@ -146,8 +146,8 @@ TEST_P(QueriesTest, MarkFragments) {
             polygon.push_back(toVec3(point));
         }
         std::vector<MarkFragment> ours;
-        const int count =
-            markFragments(*m_world, *m_materials, polygon, toVec3(query.projection), 384, points, 128, ours, false);
+        const int count = MarkClipper().clip(*m_world, *m_materials, polygon, toVec3(query.projection), 384, points,
+                                             128, ours, false);
         fragments += query.count;
         if (count != query.count) {
             ++differentCounts;

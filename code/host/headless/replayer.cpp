@@ -10,9 +10,10 @@ namespace q3rt {
 namespace {
 
 /// What a recording says about these belongs to the machine it was made on.
-constexpr const char* kMachineCvars[] = {"r_mode",       "r_customwidth",  "r_customheight",   "r_custompixelaspect",
-                                         "r_fullscreen", "r_noborder",     "r_centerwindow",   "r_allowresize",
-                                         "r_sdldriver",  "r_swapinterval", "r_availablemodes", "r_displayrefresh"};
+constexpr const char* kMachineCvars[] = {"r_mode",        "r_customwidth",  "r_customheight",   "r_custompixelaspect",
+                                         "r_fullscreen",  "r_noborder",     "r_centerwindow",   "r_allowresize",
+                                         "r_sdldriver",   "r_swapinterval", "r_availablemodes", "r_displayrefresh",
+                                         "q3rt_wantstats"};
 
 std::string lowerCase(std::string text) {
     for (char& c : text)
@@ -183,8 +184,10 @@ struct Replayer::Player {
     void operator()(const event::EndFrame&) const {} // the replayer ends the frame itself
     void operator()(const event::MarkFragments& e) const {
         if (!drawing()) return;
-        std::vector<event::Point> points(static_cast<size_t>(e.maxPoints));
-        std::vector<markFragment_t> fragments(static_cast<size_t>(e.maxFragments));
+        std::vector<event::Point>& points = replayer.m_markPoints;
+        std::vector<markFragment_t>& fragments = replayer.m_markFragments;
+        points.resize(static_cast<size_t>(e.maxPoints));
+        fragments.resize(static_cast<size_t>(e.maxFragments));
         const auto* polygon = reinterpret_cast<const vec3_t*>(e.polygon.data());
         auto* out = reinterpret_cast<float*>(points.data());
         enter([&](const refexport_t& module) {

@@ -49,6 +49,8 @@ class Replayer {
     std::map<std::string, int> m_cinematicHandles; ///< by lower-case name
     std::map<int, int> m_cinematicStatus;          ///< by handle
     std::map<int, event::Cinematic> m_cinematicPixels;
+    std::vector<event::Point> m_markPoints; ///< what the module answers
+    std::vector<markFragment_t> m_markFragments;
 };
 
 } // namespace q3rt
