@@ -76,7 +76,7 @@ TreeData buildTree(std::span<const TreePart> parts, bool lasting) {
         groups.insert(groups.end(), count, groupsOf(parts[p].surfaceClass));
     }
     const std::vector<Bounds> boxes = triangleBounds(positions);
-    const BvhBuildSettings settings{.groups = groups};
+    const BvhBuildSettings settings{.reinsert = lasting, .groups = groups};
     Bvh bvh = lasting ? buildSah(boxes, settings) : buildMorton(boxes, settings);
     std::vector<BvhTriangle> triangles = leafTriangles(bvh, positions, labels);
     return {.nodes = std::move(bvh.nodes),

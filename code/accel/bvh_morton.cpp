@@ -130,7 +130,7 @@ Bvh buildMorton(std::span<const Bounds> boxes, const BvhBuildSettings& settings)
     for (size_t i = 0; i < keys.size(); ++i)
         sorted[i] = items[keys[i].item];
     MortonBuilder builder(sorted, keys, leafLimit(settings));
-    return layOut(builder.build(), 0, sorted, rejected, settings.groups);
+    return layOut(builder.build(), 0, sorted, rejected, settings);
 }
 
 } // namespace q3rt

@@ -5,12 +5,14 @@
 #include <array>
 #include <thread>
 
+#include "accel/bvh_reinsert.hpp"
 #include "accel/bvh_tree.hpp"
 
 namespace q3rt {
 namespace {
 
-constexpr int kBinCount = 16;
+constexpr int kMostBins = 16;
+constexpr uint32_t kBinsPerItem = 2;
 /// Below this a thread costs more to start than the subtree costs to build (about 0.2 microseconds an item).
 constexpr uint32_t kMinItemsOfThread = 4096;
 
@@ -18,7 +20,7 @@ struct Bin {
     Box4 box;
     uint32_t count = 0;
 };
-using AxisBins = std::array<Bin, kBinCount>;
+using AxisBins = std::array<Bin, kMostBins>;
 
 struct Split {
     float cost = std::numeric_limits<float>::max(); ///< sum of half area x count of both sides
@@ -89,46 +91,54 @@ class SahBuilder {
         return split.axis < 0 || m_settings.traversalCost + split.cost / area >= leafCost;
     }
 
-    static int binOf(float doubleCentre, float low, float scale) {
-        return std::clamp(static_cast<int>((doubleCentre - low) * scale), 0, kBinCount - 1);
+    /// Few items need few bins.
+    static int binCount(const Range& range) {
+        return static_cast<int>(std::min(uint32_t{kMostBins}, kBinsPerItem * range.count));
+    }
+    /// `scale` never reaches past the last bin by more than rounding.
+    static int binOf(float doubleCentre, float low, float scale, int bins) {
+        return std::clamp(static_cast<int>((doubleCentre - low) * scale), 0, bins - 1);
     }
 
     /// Bins per unit of doubled centre; 0 where the centres don't spread (or spread too little to be divided).
     static float binScale(const Range& range, int axis) {
         const float extent = range.centres.maxs[axis] - range.centres.mins[axis];
-        const float scale = static_cast<float>(kBinCount) / extent;
+        const float scale = static_cast<float>(binCount(range)) / extent;
         return extent > 0 && scale < std::numeric_limits<float>::max() ? scale : 0;
     }
 
     Split findSplit(const Range& range) const {
         AxisBins bins[3];
+        const int binsUsed = binCount(range);
         const float scale[3] = {binScale(range, 0), binScale(range, 1), binScale(range, 2)};
         for (uint32_t i = range.first; i < range.first + range.count; ++i) {
             const Float4 centre = m_items[i].box.doubleCentre();
             for (int axis = 0; axis < 3; ++axis) {
-                Bin& bin = bins[axis][static_cast<size_t>(binOf(centre[axis], range.centres.mins[axis], scale[axis]))];
+                Bin& bin =
+                    bins[axis]
+                        [static_cast<size_t>(binOf(centre[axis], range.centres.mins[axis], scale[axis], binsUsed))];
                 bin.box.add(m_items[i].box);
                 ++bin.count;
             }
         }
         Split best;
         for (int axis = 0; axis < 3; ++axis)
-            if (scale[axis] > 0) sweepAxis(bins[axis], axis, best);
+            if (scale[axis] > 0) sweepAxis(bins[axis], binsUsed, axis, best);
         return best;
     }
 
-    static void sweepAxis(const AxisBins& bins, int axis, Split& best) {
-        std::array<float, kBinCount> rightCost{};
+    static void sweepAxis(const AxisBins& bins, int binsUsed, int axis, Split& best) {
+        std::array<float, kMostBins> rightCost{};
         Box4 box;
         uint32_t count = 0;
-        for (int i = kBinCount - 1; i > 0; --i) {
+        for (int i = binsUsed - 1; i > 0; --i) {
             box.add(bins[static_cast<size_t>(i)].box);
             count += bins[static_cast<size_t>(i)].count;
             rightCost[static_cast<size_t>(i)] = count == 0 ? -1.0f : box.halfArea() * static_cast<float>(count);
         }
         box = {};
         count = 0;
-        for (int i = 1; i < kBinCount; ++i) {
+        for (int i = 1; i < binsUsed; ++i) {
             box.add(bins[static_cast<size_t>(i) - 1].box);
             count += bins[static_cast<size_t>(i) - 1].count;
             if (count == 0 || rightCost[static_cast<size_t>(i)] < 0) continue;
@@ -148,7 +158,7 @@ class SahBuilder {
             middle = static_cast<uint32_t>(std::partition(begin, begin + range.count,
                                                           [&](const BuildItem& item) {
                                                               return binOf(item.box.doubleCentre()[split.axis], low,
-                                                                           scale) < split.bin;
+                                                                           scale, binCount(range)) < split.bin;
                                                           }) -
                                            m_items.begin());
         }
@@ -172,8 +182,9 @@ Bvh buildSah(std::span<const Bounds> boxes, const BvhBuildSettings& settings) {
     uint32_t rejected = 0;
     std::vector<BuildItem> items = collectItems(boxes, rejected);
     SahBuilder builder(items, settings);
-    const std::vector<BuildNode>& tree = builder.build();
-    return layOut(tree, 0, items, rejected, settings.groups);
+    std::vector<BuildNode>& tree = builder.build();
+    if (settings.reinsert) reinsertSubtrees(tree, 0);
+    return layOut(tree, 0, items, rejected, settings);
 }
 
 } // namespace q3rt

@@ -31,9 +31,8 @@ struct BuildNode {
 };
 
 /// Collapses the tree under `root` to four children a node, lays it out depth first, and fills the rest of the Bvh.
-/// `groups`: see BvhBuildSettings.
 Bvh layOut(const std::vector<BuildNode>& tree, uint32_t root, std::span<const BuildItem> items, uint32_t rejectedCount,
-           std::span<const uint8_t> groups);
+           const BvhBuildSettings& settings);
 
 /// Items that a leaf may have.
 inline uint32_t leafLimit(const BvhBuildSettings& settings) {

@@ -22,7 +22,7 @@ class CpuTracer {
   public:
     /// `positions`: 3 a triangle. `opaque`: one entry a triangle, 0: `accept` is asked; empty: all opaque.
     explicit CpuTracer(std::span<const vec3> positions, std::span<const uint8_t> opaque = {},
-                       const BvhBuildSettings& settings = {});
+                       const BvhBuildSettings& settings = {.reinsert = true});
 
     /// Asked of triangles that are not opaque, possibly by several threads at once; unset: they count.
     std::function<bool(uint32_t triangle, const vec2& barycentric)> accept;

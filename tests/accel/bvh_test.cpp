@@ -96,12 +96,13 @@ TEST(Bvh, BuildersHoldEveryItemOnce) {
     size_t cases = 0;
     for (const size_t count : {0u, 1u, 2u, 3u, 5u, 17u, 1000u}) {
         const auto boxes = triangleBounds(randomTriangles(random, count, 1000, 30));
-        for (const Bvh& bvh : {buildSah(boxes), buildMorton(boxes), buildPairing(boxes)}) {
+        for (const Bvh& bvh :
+             {buildSah(boxes), buildSah(boxes, {.reinsert = true}), buildMorton(boxes), buildPairing(boxes)}) {
             expectValidTree(bvh, count);
             ++cases;
         }
     }
-    EXPECT_EQ(cases, 21u);
+    EXPECT_EQ(cases, 28u);
 }
 
 TEST(Bvh, EqualAndDegenerateItemsStayWithinTheDepthBound) {
@@ -129,9 +130,12 @@ TEST(Bvh, NonFiniteItemsAreRejectedAndCounted) {
 TEST(Bvh, ThreadsGiveTheSameTree) {
     Random random(2);
     const auto boxes = triangleBounds(randomTriangles(random, 20000, 1000, 10));
-    const Bvh one = buildSah(boxes, {.threadCount = 1}), four = buildSah(boxes, {.threadCount = 4});
-    EXPECT_EQ(one.order, four.order);
-    EXPECT_EQ(one.nodes.size(), four.nodes.size());
+    for (const bool reinsert : {false, true}) {
+        const Bvh one = buildSah(boxes, {.threadCount = 1, .reinsert = reinsert});
+        const Bvh four = buildSah(boxes, {.threadCount = 4, .reinsert = reinsert});
+        EXPECT_EQ(one.order, four.order);
+        EXPECT_EQ(one.nodes.size(), four.nodes.size());
+    }
 }
 
 TEST(Bvh, SahIsNoWorseThanMortonAndRefitKeepsAStillTree) {
@@ -220,7 +224,7 @@ TEST(Traversal, ClosedMeshDoesNotLeakAtAnyDistance) {
     for (const float distance : {0.0f, 8000.0f, 65536.0f, 1e6f}) {
         const vec3 centre(distance, -distance, distance);
         const auto positions = closedBox(8, centre, 256);
-        const TestScene scene = singleModelScene(buildSah(triangleBounds(positions)), positions);
+        const TestScene scene = singleModelScene(buildSah(triangleBounds(positions), {.reinsert = true}), positions);
         for (int i = 0; i < 50000; ++i) {
             // Half of the rays aim exactly at grid vertices, where up to six triangles meet.
             const vec3 origin = centre + uniformPoint(random, 100);

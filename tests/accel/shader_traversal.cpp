@@ -11,7 +11,10 @@ using uint = uint32_t;
 
 #include "lib/intersect.glsl"
 
-uint64_t visitCount = 0; // of nodes, by the ray under way
+// By the ray under way.
+uint64_t visitCount = 0; // of nodes
+uint64_t coordinateCount = 0;
+constexpr uint64_t kCoordinatesOfTest = 9;
 
 struct BvhQuery {
     const TestScene* scene;
@@ -31,6 +34,7 @@ uint loadBvhGroups(BVH_TABLE table, uint index) {
 }
 float loadBvhReach(BVH_TABLE table) { return reinterpret_cast<const BvhNode*>(table)->reach; }
 float loadBvhCoordinate(BVH_TABLE table, uint index, uint corner, uint axis) {
+    ++coordinateCount;
     return (&reinterpret_cast<const BvhTriangle*>(table)[index].corner0.x)[kBvhCornerWords * corner + axis];
 }
 BvhInstance loadBvhInstance(BvhQuery& query, uint item) {
@@ -84,9 +88,11 @@ TestHit traceShader(const TestScene& scene, const vec3& origin, const vec3& dire
                     uint32_t mask, bool anyHit, uint32_t groups) {
     BvhQuery query{&scene, anyHit, {}};
     visitCount = 0;
+    coordinateCount = 0;
     traverseBvh(reinterpret_cast<uint64_t>(scene.sceneNodes.data()), origin, direction, tMin, tMax, mask, groups,
                 query);
     query.hit.visitCount = visitCount;
+    query.hit.testCount = coordinateCount / kCoordinatesOfTest;
     return query.hit;
 }
 

@@ -37,6 +37,7 @@ struct TestHit {
     vec2 barycentric{0};
     bool frontFace = false;
     uint64_t visitCount = 0; ///< of nodes of both levels
+    uint64_t testCount = 0;  ///< of triangles
 };
 
 TestHit traceShader(const TestScene& scene, const vec3& origin, const vec3& direction, float tMin, float tMax,

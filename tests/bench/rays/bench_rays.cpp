@@ -6,11 +6,13 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <numeric>
 #include <vector>
 
 #include "accel/bvh.hpp"
 #include "accel/reference/embree_tracer.hpp"
 #include "accel/reference/world_triangles.hpp"
+#include "accel/shader_traversal.hpp"
 #include "gpu/compute_pipeline.hpp"
 #include "gpu/device.hpp"
 #include "gpu/readback.hpp"
@@ -68,8 +70,7 @@ Buffer upload(Device& device, const std::vector<T>& items) {
 struct DeviceTree {
     Buffer nodes, triangles, sceneNodes, instances;
 
-    DeviceTree(Device& device, const std::vector<vec3>& positions) {
-        const Bvh bvh = buildSah(triangleBounds(positions));
+    DeviceTree(Device& device, const Bvh& bvh, const std::vector<vec3>& positions) {
         nodes = upload(device, bvh.nodes);
         triangles = upload(device, leafTriangles(bvh, positions, {}));
         sceneNodes = upload(device, buildSah({&bvh.bounds, 1}, {.maxLeafItems = 1}).nodes);
@@ -154,6 +155,25 @@ double deviceSeconds(Device& device, const ShaderStage& shader, const DeviceTree
     return seconds;
 }
 
+/// Prints the mean and the 95th percentile of what a ray costs: the same text of the traversal, run on the CPU.
+void printWork(const char* what, const TestScene& scene, const std::vector<BenchRay>& rays, float tMax, bool anyHit) {
+    std::vector<uint64_t> visits, tests;
+    for (const BenchRay& ray : rays) {
+        const TestHit hit = traceShader(scene, ray.origin, ray.direction, 0, tMax, 0xff, anyHit);
+        visits.push_back(hit.visitCount);
+        tests.push_back(hit.testCount);
+    }
+    std::printf("%-8s", what);
+    for (std::vector<uint64_t>* counts : {&visits, &tests}) {
+        std::sort(counts->begin(), counts->end());
+        std::printf(" %8.2f (%3llu)",
+                    static_cast<double>(std::accumulate(counts->begin(), counts->end(), uint64_t{0})) /
+                        static_cast<double>(counts->size()),
+                    static_cast<unsigned long long>((*counts)[counts->size() * 95 / 100]));
+    }
+    std::printf("\n");
+}
+
 template <typename Trace>
 double embreeSeconds(const std::vector<BenchRay>& rays, size_t& hits, Trace trace) {
     return measure(CLOCK_THREAD_CPUTIME_ID, [&] {
@@ -172,12 +192,19 @@ void printRow(const char* what, size_t count, double ours, double embree, const 
 void compare(Device& device, FileSource& files, const char* map, glm::uvec2 size) {
     const WorldTriangles world(files, map);
     const EmbreeTracer embree(world.positions());
-    const DeviceTree tree(device, world.positions());
+    const Bvh bvh = buildSah(triangleBounds(world.positions()), {.reinsert = true});
+    const DeviceTree tree(device, bvh, world.positions());
     std::printf("%s, %zu triangles, %ux%u rays, %s\n", map, world.count(), size.x, size.y,
                 device.capabilities().deviceName.c_str());
-    std::printf("Mrays/s     device     Embree    ratio   (a software device: of one core)\n");
     const std::vector<BenchRay> rays = cameraRays(world, size);
     const std::vector<BenchRay> shadows = shadowRays(world, rays, embree);
+    TestScene scene;
+    scene.instances.push_back(scene.addModel(bvh, world.positions()));
+    scene.buildScene({bvh.bounds});
+    std::printf("a ray: node visits (95 %% need no more), triangle tests\n");
+    printWork("camera", scene, rays, world.farQu(), false);
+    printWork("shadow", scene, shadows, 1, true);
+    std::printf("Mrays/s     device     Embree    ratio   (a software device: of one core)\n");
     size_t hits[2];
     double ours = deviceSeconds(device, {shaders::rays_closest}, tree, rays, size, world.farQu(), hits[0]);
     double reference = embreeSeconds(rays, hits[1], [&](const BenchRay& ray) {
