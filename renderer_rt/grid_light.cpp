@@ -114,6 +114,7 @@ class GridExplainer {
         way = light.position - point;
         const float distance2 = std::max(dot(way, way), kLightMinDistanceQu * kLightMinDistanceQu);
         flux = light.power / distance2;
+        if (isFaint(flux, light.faintest)) flux = vec3(0.0f);
         if (light.spot > 0.0f) flux *= spotShare(light.axis, light.spot, -way);
     }
 

@@ -89,7 +89,8 @@ RtLight makePointLight(const PointLight& light) {
             .power = light.intensity,
             .size = 0,
             .axis = light.direction,
-            .spot = light.spot ? std::sqrt(1.0f - cosine * cosine) / cosine : 0.0f};
+            .spot = light.spot ? std::sqrt(1.0f - cosine * cosine) / cosine : 0.0f,
+            .faintest = light.faintest};
 }
 
 RtLight makeSun(const SunLight& sun) {
@@ -98,7 +99,8 @@ RtLight makeSun(const SunLight& sun) {
             .power = sun.irradiance,
             .size = 1.0f - std::cos(sun.halfAngleRadians),
             .axis = vec3(0.0f),
-            .spot = 0};
+            .spot = 0,
+            .faintest = 0};
 }
 
 } // namespace
@@ -109,7 +111,8 @@ RtLight makeDynamicLight(const vec3& origin, float radiusQu, const vec3& color) 
             .power = color * (kDynamicLightIntensity * radiusQu * radiusQu),
             .size = kLightMinDistanceQu,
             .axis = vec3(0.0f),
-            .spot = 0};
+            .spot = 0,
+            .faintest = 0};
 }
 
 std::vector<bool> findSkyClusters(const World& world, const MaterialLibrary& materials) {

@@ -12,7 +12,7 @@ namespace {
 /// Point lights count no closer than this (how the maps were baked), qu.
 constexpr float kMinPointDistanceQu = 16;
 /// Light this many times the faintest is sampled at all points of a receiver, or at every second.
-constexpr float kStrong = 60, kWeak = 15;
+constexpr float kStrong = 6, kWeak = 1.5f;
 
 LightColumn columnOf(const std::vector<float>& values) {
     LightColumn column;
@@ -53,14 +53,13 @@ LightColumn tracePoint(const LightScene& scene, const std::vector<LightReceiver>
     const int cluster = scene.world.clusterOf(origin);
     for (size_t i = 0; i < receivers.size(); ++i) {
         const LightReceiver& receiver = receivers[i];
-        const vec3 first = origin - receiver.position[0];
-        if (glm::dot(first, first) * faintest > 1) continue;
         float value[LightReceiver::kPoints], sum = 0;
         for (int p = 0; p < LightReceiver::kPoints; ++p) {
-            value[p] = pointIrradiance(receiver.position[p], receiver.normal[p], origin) / LightReceiver::kPoints;
+            const float given = pointIrradiance(receiver.position[p], receiver.normal[p], origin);
+            value[p] = given > faintest ? given / LightReceiver::kPoints : 0;
             sum += value[p];
         }
-        if (!(sum > 0) || sum < faintest || !scene.mayMeet(cluster, receiver.cluster)) continue;
+        if (!(sum > 0) || !scene.mayMeet(cluster, receiver.cluster)) continue;
         // Faint light needs no soft shadow edges: another point for each receiver.
         const int step = sum > kStrong * faintest ? 1 : sum > kWeak * faintest ? 2 : LightReceiver::kPoints;
         float lit = 0, asked = 0;

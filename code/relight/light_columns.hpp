@@ -30,8 +30,8 @@ std::vector<LightColumn> traceEmitters(const LightScene& scene, const std::vecto
 LightColumn traceSun(const LightScene& scene, const std::vector<LightReceiver>& receivers, const SunLight& sun);
 /// Irradiance of an unshadowed point light of intensity 1: cos / d^2, d at least 16 qu as the map compilers have it.
 float pointIrradiance(const vec3& position, const vec3& normal, const vec3& origin);
-/// For an intensity of 1. Receivers that would get less than `faintest` are left out, and those that get little are
-/// sampled at fewer of their points.
+/// For an intensity of 1. Points of receivers that would get `faintest` or less are dark, and of those that get little
+/// fewer are sampled.
 LightColumn tracePoint(const LightScene& scene, const std::vector<LightReceiver>& receivers, const vec3& origin,
                        float faintest);
 /// A point light's column with a cone around it.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "relight/lost_units.hpp"
 #include "relight/point_move.hpp"
 
 namespace q3rt {
@@ -25,12 +26,12 @@ constexpr int kRestRounds = 30;
 constexpr float kMergeQu = 64;
 /// Lights that light the same places, at least this much alike, may take over from each other (cosine).
 constexpr double kHeirLikeness = 0.2;
+/// A light's reach follows its strength where that has changed by more than this factor.
+constexpr float kReachSlack = 1.1f;
 /// So many rounds without a light end the search.
 constexpr int kIdleRounds = 12;
-/// Irradiance that is not worth a shadow ray, luxel units; and the same for lights whose strength is not known.
-constexpr float kFaintest = 0.1f, kFaintestKnown = 1e-7f;
 
-float faintestOf(const vec3& intensity) { return kFaintest / std::max(1.0f, largestOf(intensity)); }
+float faintestOf(const vec3& intensity) { return kFaintestLight / std::max(1.0f, largestOf(intensity)); }
 
 } // namespace
 
@@ -42,11 +43,10 @@ PointSearch::PointSearch(const LightScene& scene, const std::vector<LightEye>& e
     , m_restUntil(eyes.size() + scene.luxels.patches.size(), 0) {}
 
 void PointSearch::addKnown(const vec3& origin, const LightCone& cone, const vec3& intensity, bool staysPut) {
-    const float faintest = staysPut ? kFaintestKnown : faintestOf(intensity);
-    LightColumn column = tracePoint(m_scene, m_scene.receivers, origin, faintest);
+    LightColumn column = tracePoint(m_scene, m_scene.receivers, origin, faintestOf(intensity));
     const size_t source = m_fit.add(withinCone(m_scene.receivers, origin, cone, column), staysPut ? 0 : m_price);
     m_fit.setStrength(source, intensity);
-    m_lights.push_back({origin, cone, source, staysPut, std::move(column)});
+    m_lights.push_back({origin, cone, source, staysPut, std::move(column), faintestOf(intensity)});
 }
 
 LightEye::Worth PointSearch::worthAt(const vec3& origin, const SeenResidual& seen) const {
@@ -126,7 +126,8 @@ void PointSearch::climb(Candidate& candidate, const SeenResidual& seen) const {
         }
     }
     const LightEye::Worth worth = worthAt(candidate.origin, seen);
-    candidate.column = tracePoint(m_scene, m_scene.receivers, candidate.origin, faintestOf(worth.strength));
+    candidate.faintest = faintestOf(worth.strength);
+    candidate.column = tracePoint(m_scene, m_scene.receivers, candidate.origin, candidate.faintest);
     if (worth.axis == vec3(0)) return;
     const FittedCone fitted = fitCone(m_scene, m_fit, candidate.origin, candidate.column, worth.axis, m_price);
     if (fitted.gain > kSpotHandicap * m_fit.gainOf(candidate.column, m_price)) candidate.cone = fitted.cone;
@@ -143,7 +144,8 @@ bool PointSearch::take(Candidate& candidate, double leastGain) {
         m_fit.removeLast();
         return false;
     }
-    m_lights.push_back({candidate.origin, candidate.cone, source, false, std::move(candidate.column)});
+    m_lights.push_back(
+        {candidate.origin, candidate.cone, source, false, std::move(candidate.column), candidate.faintest});
     return true;
 }
 
@@ -178,6 +180,26 @@ void PointSearch::add(size_t count, double leastGain, const std::function<void(s
     }
 }
 
+void PointSearch::retrace() {
+    std::vector<LightColumn> columns(m_lights.size());
+    const auto isStale = [&](const FoundLight& light) {
+        const float ratio = faintestOf(m_fit.strength(light.source)) / light.faintest;
+        return ratio > kReachSlack || ratio < 1 / kReachSlack;
+    };
+    parallelFor(m_lights.size(), [&](size_t i) {
+        if (isStale(m_lights[i]))
+            columns[i] = tracePoint(m_scene, m_scene.receivers, m_lights[i].origin,
+                                    faintestOf(m_fit.strength(m_lights[i].source)));
+    });
+    for (size_t i = 0; i < m_lights.size(); ++i) {
+        FoundLight& light = m_lights[i];
+        if (!isStale(light)) continue;
+        light.faintest = faintestOf(m_fit.strength(light.source));
+        light.column = std::move(columns[i]);
+        m_fit.replaceColumn(light.source, withinCone(m_scene.receivers, light.origin, light.cone, light.column));
+    }
+}
+
 void PointSearch::refinePlaces() {
     std::vector<vec3> places(m_lights.size());
     std::vector<LightColumn> columns(m_lights.size());
@@ -200,6 +222,7 @@ void PointSearch::refinePlaces() {
         if (m_fit.cost() < cost) {
             light.origin = places[i];
             light.column = std::move(columns[i]);
+            light.faintest = faintestOf(strength);
         } else {
             m_fit.replaceColumn(light.source, std::move(old));
             m_fit.setStrength(light.source, strength);
@@ -267,12 +290,13 @@ bool PointSearch::mergeInto(FoundLight& light, const FoundLight& other, double l
     const float a = largestOf(m_fit.strength(light.source)), b = largestOf(m_fit.strength(other.source));
     const vec3 place = glm::mix(light.origin, other.origin, b / (a + b));
     if (m_scene.world.clusterOf(place) < 0) return false;
-    LightColumn column = tracePoint(m_scene, m_scene.receivers, place, faintestOf(m_fit.strength(light.source))),
-                old = m_fit.column(light.source);
+    const float faintest = faintestOf(m_fit.strength(light.source) + m_fit.strength(other.source));
+    LightColumn column = tracePoint(m_scene, m_scene.receivers, place, faintest), old = m_fit.column(light.source);
     m_fit.replaceColumn(light.source, withinCone(m_scene.receivers, place, light.cone, column));
     if (isTakenOver(other.source, heirsOf(other.source), cost, leastGain)) {
         light.origin = place;
         light.column = std::move(column);
+        light.faintest = faintest;
         return true;
     }
     m_fit.replaceColumn(light.source, std::move(old));

@@ -16,6 +16,7 @@ struct FoundLight {
     size_t source = 0;     ///< in the fit
     bool staysPut = false; ///< the map itself still has it
     LightColumn column;    ///< without its cone
+    float faintest = 0;    ///< that the column was traced with
 };
 
 class PointSearch {
@@ -28,6 +29,8 @@ class PointSearch {
     /// Adds up to `count` lights; fewer when none is left that improves the fit by `leastGain` of its cost.
     /// `found` is told how many there are after each round.
     void add(size_t count, double leastGain, const std::function<void(size_t)>& found);
+    /// Columns anew for lights whose strength, and with it their reach, is no longer what they were traced for.
+    void retrace();
     /// One Gauss-Newton step for each light, kept where the fit improves.
     void refinePlaces();
     /// Cones for lights that shine one way only, and better ones for those that have some.
@@ -46,6 +49,7 @@ class PointSearch {
         double gain = 0;
         LightColumn column{};
         LightCone cone{};
+        float faintest = 0;
     };
     const LightScene& m_scene;
     const std::vector<LightEye>& m_eyes;

@@ -15,7 +15,7 @@ struct RelightSettings {
     double leastGain = 1e-4; ///< of the fit's cost, that a light must bring
     /// What light of value 1 costs, as a share of the cost of a map without any light: a light of value 300 has to
     /// explain three in ten thousand more than a weaker one that does as much.
-    double price = 1e-6;
+    double price = 3e-7;
     double leastSunGain = 0.01; ///< of the fit's cost, that a sun must bring
 };
 

@@ -140,6 +140,7 @@ void RelightModel::addPoints(size_t count, const std::function<void(size_t)>& fo
 void RelightModel::settle() {
     m_fit.solve(2);
     for (int i = 0; i < kRefinements; ++i) {
+        m_points->retrace();
         m_points->refinePlaces();
         m_fit.sweep();
     }
@@ -172,6 +173,7 @@ LostLights RelightModel::lights() const {
     LostLights lights;
     lights.lightmap = m_input.fingerprint;
     lights.compensate = m_input.compensation;
+    lights.faintest = kFaintestLight;
     lights.bounce = static_cast<float>(m_bounceScale);
     lights.floor = m_input.compensation * m_input.floor;
     const vec3 ambient = m_fit.strength(m_ambientSource);

@@ -1,5 +1,6 @@
 #include "scene/direct_light.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -142,6 +143,8 @@ vec3 DirectLightTracer::pointLight(const vec3& origin, const vec3& normal) const
         const float cosine = glm::dot(to, normal) / std::max(glm::length(to), std::numeric_limits<float>::min());
         const float share = light.spot ? spotShare(light, -to) : 1.0f;
         if (cosine <= 0 || share <= 0) continue;
+        const float faintest = light.faintest * (distance * distance) / cosine;
+        if (std::max({light.intensity.x, light.intensity.y, light.intensity.z}) <= faintest) continue;
         if (!m_occluders.occluded(origin, to, 1)) sum += light.intensity * (share * cosine / (distance * distance));
     }
     return sum;

@@ -119,10 +119,11 @@ float looseCosine(float along, float distance, float radiusQu) {
     return std::max(0.0f, std::min(1.0f, (along + radiusQu) / (distance + radiusQu)));
 }
 
-/// Irradiance at a point without shadow, about right, positive wherever it is.
+/// Irradiance at a point without shadow, about right.
 float estimate(const RowLight& light, const vec3& point, uint32_t normalClass) {
     const vec3 way = light.center() - point;
     const float distance = glm::length(way);
+    if (distance > light.farthestQu) return 0;
     const float nearest = std::max({light.radiusQu, light.nearestQu, distance});
     float given = light.strength / (nearest * nearest);
     if (light.normal != vec3(0.0f)) given *= looseCosine(-glm::dot(light.normal, way), distance, light.radiusQu);
@@ -169,6 +170,8 @@ bool shinesToward(const RowLight& light, const RowRegion& region) {
         // A point this near to the light's plane, by rounding, takes nothing from it anyway (rt/lights.glsl).
         if (farthestAlong(region.box, light.normal) <= glm::dot(light.normal, light.corner[0])) return false;
     }
+    const vec3 center = light.center();
+    if (glm::distance(center, glm::clamp(center, region.box.mins, region.box.maxs)) > light.farthestQu) return false;
     if (region.normalClass == 0) return true;
     float along = -std::numeric_limits<float>::infinity();
     for (const vec3& corner : light.corner)

@@ -15,6 +15,8 @@ namespace {
 /// A light this near to a dividing plane counts as on both sides: map compilers move vertices by up to this much.
 constexpr float kPlaneSlackQu = 0.125f;
 constexpr float kNeverReached = std::numeric_limits<float>::max();
+/// Of a distance beyond which a light gives nothing: far above its own rounding and that of what the shader compares.
+constexpr float kFarSlack = 1.0001f;
 
 float sumOf(const vec3& v) { return v.x + v.y + v.z; }
 
@@ -181,6 +183,8 @@ std::vector<RowLight> describeRowLights(std::span<const TriangleLight> triangles
         std::fill(light.corner, light.corner + 3, point.origin);
         light.strength = sumOf(point.intensity);
         light.nearestQu = kLightMinDistanceQu;
+        const float strongest = std::max({point.intensity.x, point.intensity.y, point.intensity.z});
+        if (point.faintest > 0) light.farthestQu = kFarSlack * std::sqrt(strongest / point.faintest);
     }
     return lights;
 }

@@ -3,6 +3,7 @@
 // A light is only left out of a row where it gives exactly nothing: triangles are clipped through the BSP, so that all
 // clusters that they touch are known, not just those of their corners.
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct RowLight {
     float radiusQu = 0;  ///< of a sphere around the centre that holds it at any time
     float reachQu = 0;   ///< it moves so far from here at most; infinite: it may be anywhere
     float nearestQu = 0; ///< it is no brighter nearer than this
+    float farthestQu = std::numeric_limits<float>::infinity(); ///< it gives nothing farther away
     vec3 center() const { return (corner[0] + corner[1] + corner[2]) / 3.0f; }
 };
 /// Triangle lights, then point lights: the numbers that entries have.

@@ -49,6 +49,8 @@ struct PointLight {
     bool spot = false;
     vec3 direction{0};
     float cosOuter = -1;
+    /// Irradiance of the largest channel at or below which it gives nothing, luxel units (q3map2 -fast).
+    float faintest = 0;
     /// Of the angle between a spot light's axis and its border.
     float tangent() const { return std::sqrt(std::max(0.0f, 1 - cosOuter * cosOuter)) / cosOuter; }
 };

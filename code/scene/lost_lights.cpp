@@ -154,6 +154,8 @@ class Reader {
         } else if (key == "_compensate") {
             m_lights.compensate = given(1, 1)[0];
             if (!(m_lights.compensate > 0)) fail("_compensate must be above 0");
+        } else if (key == "_faintest") {
+            m_lights.faintest = std::max(0.0f, given(1, 1)[0]);
         } else if (key == "_bounce") {
             m_lights.bounce = std::max(0.0f, given(1, 1)[0]);
         } else if (key == "_indirect") {
@@ -203,6 +205,7 @@ std::string formatLostLights(const LostLights& lights, std::string_view map) {
     std::string text = "// Light of " + std::string(map) + " as its lightmap has it: q3rt relight\n{\n";
     text += pair("classname", "worldspawn") + "\n" + pair("_lightmap", lights.lightmap) + "\n";
     if (lights.compensate != 1) text += pair("_compensate", numbers({lights.compensate}, 4)) + "\n";
+    if (lights.faintest > 0) text += pair("_faintest", numbers({lights.faintest}, 4)) + "\n";
     if (lights.bounce > 0) text += pair("_bounce", numbers({lights.bounce}, 2)) + "\n";
     if (lights.indirect)
         text += pair("_indirect", numbers({lights.indirect->x, lights.indirect->y, lights.indirect->z}, 3)) + "\n";
@@ -283,8 +286,10 @@ void applyLostLights(const LostLights& lost, const World& world, const MaterialL
     lights.points = lost.points;
     for (SunLight& sun : lights.suns)
         sun.irradiance *= scale;
-    for (PointLight& point : lights.points)
+    for (PointLight& point : lights.points) {
         point.intensity *= scale;
+        point.faintest = scale * lost.faintest;
+    }
 }
 
 } // namespace q3rt

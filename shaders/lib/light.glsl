@@ -73,6 +73,9 @@ LightSample sampleSphereLight(vec3 position, vec3 normal, vec3 center, float rad
     return result;
 }
 
+// Does the map compilers' rule leave this out: nothing of it is above the faintest light that they count?
+bool isFaint(vec3 irradiance, float faintest) { return max(irradiance.x, max(irradiance.y, irradiance.z)) <= faintest; }
+
 // A sun: `irradiance` at normal incidence; soft if it has an angle. The direction has length `farQu`.
 LightSample sampleSun(vec3 normal, vec3 toSun, float oneMinusCosAngle, vec3 irradiance, float farQu, float u, float v)
 {

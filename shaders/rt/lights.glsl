@@ -114,6 +114,8 @@ LightSample sampleSphere(RtLight l, ShadingPoint point, vec2 random)
     float radius = (rtFrame.flags & kFrameSoftShadows) != 0u ? l.size : 0.0;
     LightSample result =
         sampleSphereLight(point.origin, point.normal, l.position, radius, l.power, random.x, random.y);
+    if (isFaint(result.irradiance, l.faintest))
+        result.irradiance = vec3(0.0);
     if (l.spot > 0.0)
         result.irradiance *= spotShare(l.axis, l.spot, -result.direction);
     return result;

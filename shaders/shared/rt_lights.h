@@ -31,6 +31,7 @@ struct RtLight {
     float size; // sphere: radius, qu; sun: 1 - cos(half angle)
     vec3 axis;  // spot: unit direction of its cone
     float spot; // radius of its cone at distance 1; 0: no cone
+    float faintest; // sphere: irradiance of the largest channel at or below which it gives nothing, luxel units
 };
 
 // Points of a cluster by their shading normal. Class 0: all; 1 + 2 axis: exactly along that axis, + 1 against it.

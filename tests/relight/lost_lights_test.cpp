@@ -16,6 +16,7 @@ LostLights someLights() {
     LostLights lights;
     lights.lightmap = "0123456789abcdef";
     lights.compensate = 2.5f;
+    lights.faintest = 1;
     lights.bounce = 0.5f;
     lights.indirect = vec3(3, 2, 1);
     lights.ambientValue = 7;
@@ -34,6 +35,7 @@ TEST(LostLights, TextIsReadBack) {
     const LostLights read = parseLostLights(formatLostLights(lights, "m"), "lights/m.ent");
     EXPECT_EQ(read.lightmap, lights.lightmap);
     EXPECT_FLOAT_EQ(read.compensate, 2.5f);
+    EXPECT_FLOAT_EQ(read.faintest, 1);
     EXPECT_FLOAT_EQ(read.bounce, 0.5f);
     EXPECT_EQ(read.indirect, vec3(3, 2, 1));
     EXPECT_FLOAT_EQ(read.ambientValue, 7);
@@ -137,6 +139,7 @@ TEST(LostLights, ReplaceWhatScriptsSay) {
     EXPECT_NEAR(lights.floor.x, 12 / 2.5, 1e-5);
     ASSERT_EQ(lights.points.size(), 2u);
     EXPECT_NEAR(lights.points[0].intensity.x, 7500 * 300 / 2.5, 1);
+    EXPECT_NEAR(lights.points[0].faintest, 1 / 2.5, 1e-5);
     ASSERT_EQ(lights.suns.size(), 1u);
     EXPECT_NEAR(lights.suns[0].irradiance.x, 80 / 2.5, 1e-3);
 }

@@ -7,6 +7,7 @@
 
 #include "base/parallel.hpp"
 #include "relight/light_truth.hpp"
+#include "relight/lost_units.hpp"
 #include "relight/relight.hpp"
 #include "scene/direct_light.hpp"
 #include "truth/test_game.hpp"
@@ -29,6 +30,8 @@ class RelitCorridor : public testing::Test {
         m_truth.push_back({vec3(60, 200, 150), 7500.0f * vec3(100, 60, 30)});
         m_truth.push_back({vec3(480, 380, 100), 7500.0f * vec3(24, 48, 60)});
         m_truth.push_back({vec3(900, 300, 170), 7500.0f * vec3(120, 120, 120), true, vec3(0, 0, -1), 0.8f});
+        for (PointLight& light : m_truth)
+            light.faintest = kFaintestLight;
         bake();
     }
 

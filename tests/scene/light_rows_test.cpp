@@ -181,6 +181,21 @@ TEST_F(SmallWorld, ALightThatTurnsItsBackDoesNotFace) {
     EXPECT_EQ(rows.outside().facing, 2u);
 }
 
+TEST_F(SmallWorld, ALightThatIsTooFaintByThenDoesNotFace) {
+    m_world.bsp.visibility = {3, 3, 4};
+    PointLight light;
+    light.origin = vec3(20, 0, 0);
+    light.intensity = vec3(100, 400, 0);
+    for (const auto& [faintest, faces] : {std::pair(0.0f, 1u), {0.9f, 1u}, {1.1f, 0u}}) { // 400 / 20^2 = 1 at the plane
+        light.faintest = faintest;
+        const LightRows rows =
+            buildLightRows(m_world, m_libraries->materials, describeRowLights({}, std::span(&light, 1)));
+        EXPECT_EQ(rows.ofCluster(0).facing, 1u);
+        EXPECT_EQ(rows.ofCluster(1).count, 1u);
+        EXPECT_EQ(rows.ofCluster(1).facing, faces) << faintest;
+    }
+}
+
 TEST_F(SmallWorld, WhatMovesIsEverywhere) {
     TriangleLight mover = makeLight({20, 0, 0}, {0, 1, 0}), lava = makeLight({20, 0, 0}, {0, 1, 0});
     mover.bspModel = 1;

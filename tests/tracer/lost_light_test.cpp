@@ -63,6 +63,18 @@ TEST_F(LostLightTest, StandsInForWhatScriptsSay) {
     EXPECT_NEAR(radiance(), radianceOfPoint(100), 0.01 * radianceOfPoint(100));
 }
 
+TEST_F(LostLightTest, WhatIsTooFaintIsLeftOut) {
+    const auto file = [](const char* faintest) { // the floor gets 18.75
+        return "{ \"classname\" \"worldspawn\" \"_faintest\" \"" + std::string(faintest) + "\" }\n" + lightText(100);
+    };
+    m_game.addText(kFile, file("18.5"));
+    start("1");
+    EXPECT_NEAR(radiance(), radianceOfPoint(100), 0.01 * radianceOfPoint(100));
+    m_game.addText(kFile, file("19"));
+    ASSERT_TRUE(m_harness->engine().runCommand({"rt_reloadLights"}));
+    EXPECT_EQ(radiance(), 0);
+}
+
 TEST_F(LostLightTest, IsReloadedAtOnce) {
     m_game.addText(kFile, lightText(100));
     start("1");

@@ -388,7 +388,8 @@ dvec3 DoubleTracer::pointLight(const DoubleHit& hit) const {
         if (cosine <= 0 || share <= 0 || glm::dot(way, hit.geometricNormal) <= 0 || !isOpen(hit.position, way, 1))
             continue;
         const double near = std::max(distance, kNearestQu);
-        sum += dvec3(light.intensity) * (share * cosine / (near * near));
+        const dvec3 given = dvec3(light.intensity) * (cosine / (near * near));
+        if (std::max({given.x, given.y, given.z}) > double(light.faintest)) sum += share * given;
     }
     return sum;
 }
