@@ -244,10 +244,14 @@ void DrawListBuilder::appendSky(ViewWork& work, const Material& material, Materi
     batch.entity = entityIndex(work, 0);
     const float halfSize = work.view.farQu / kSkyPart;
     std::array<SkyFaceRange, kSkyFaces> faces;
-    for (int face = 0; face < (material.sky.hasBox ? kSkyFaces : kSkyCloudFaces); ++face)
-        faces[static_cast<size_t>(face)] =
-            appendSkyFace(m_skyCoverage, face, work.view.eye.origin, halfSize, m_materials.lastCloudHeight,
-                          work.out.vertices, work.out.indices);
+    for (int face = 0; face < (material.sky.hasBox ? kSkyFaces : kSkyCloudFaces); ++face) {
+        SkyFaceRange& range = faces[static_cast<size_t>(face)];
+        range = appendSkyFace(m_skyCoverage, face, work.view.eye.origin, halfSize, m_materials.lastCloudHeight,
+                              work.out.vertices, work.out.indices);
+        if (!work.settings.cullTriangles) continue;
+        cullTriangles(work, batch, CullMode::None, range.firstIndex);
+        range.indexCount = static_cast<uint32_t>(work.out.indices.size()) - range.firstIndex;
+    }
     const int fog = fogIndex(work, work.items[firstItem].fog);
     StageRange clouds;
     if (!material.stages.empty()) clouds = m_stages.evaluate(id, work.geometry.entities[0].stage);

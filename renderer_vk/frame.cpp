@@ -34,7 +34,7 @@ void GpuRenderer::drawFrame(const FrameCommands& frame, FrameImage* capture) {
     followTextures(false);
     followSettings();
     m_stages->beginFrame();
-    m_raster->beginFrame(m_rasterSettings);
+    m_raster->beginFrame(m_drawListSettings);
     m_eye = Eye::Both;
     m_anaglyph->follow(m_rasterSettings.r_anaglyphMode);
     onGpuFrameBegin(frame);

@@ -135,7 +135,9 @@ void RasterScene::dropContent() {
     m_data.clear();
 }
 
-void RasterScene::beginFrame(const RasterSettings& settings) {
+void RasterScene::beginFrame(const DrawListSettings& listSettings) {
+    const RasterSettings& settings = listSettings.raster;
+    m_cullPictures = listSettings.cullTriangles && settings.r_ext_multisample <= 1;
     m_debugSort = settings.r_debugSort;
     m_showEdges = settings.r_showtris != 0;
     if (m_showEdges && !m_context.device().capabilities().fillModeNonSolid) {

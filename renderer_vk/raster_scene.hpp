@@ -41,7 +41,7 @@ class RasterScene {
     /// Creates and warms the pipelines of all materials known now.
     void warmPipelines(MaterialId flare);
 
-    void beginFrame(const RasterSettings& settings);
+    void beginFrame(const DrawListSettings& settings);
     /// A pass "clear" that fills the targets: r_clear.
     void addClear(FrameGraph& graph, FrameTargets& targets);
     /// A pass that draws what is added until another pass comes; the first of them names it. Between two passes the GPU
@@ -119,6 +119,7 @@ class RasterScene {
     bool m_depthFirst = false, m_showEdges = false;
     uint32_t m_edgeStage = 0; ///< of FrameDrawData::ownStages
     float m_debugSort = 0;
+    bool m_cullPictures = false; ///< leave out those that no pixel shows
     float m_offsetFactor = -1, m_offsetUnits = -2;
     struct BoundState;
     std::unique_ptr<BoundState> m_bound;

@@ -50,6 +50,9 @@ void RasterScene::addUiPicture(const Picture& picture, uint32_t entity, int cloc
     const MaterialId remapped = m_materials->get(asked).remappedTo;
     const MaterialId id = remapped ? remapped : asked;
     if (m_debugSort > 0 && m_materials->get(id).sort > m_debugSort) return;
+    const vec2 corner(picture.x, picture.y), size(picture.width, picture.height);
+    const VkExtent2D extent = m_context.extent();
+    if (m_cullPictures && !rectangleShows(corner, corner + size, vec2(extent.width, extent.height))) return;
     auto& batches = m_data.batches;
     if (batches.size() > firstBatch && batches.back().own == OwnDraw::None && batches.back().material == id) {
         appendQuad(picture);

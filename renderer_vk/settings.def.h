@@ -37,7 +37,7 @@ SETTING(r_flareSize, Float, 40.0f, 0, 1000, C, "pixels", "half size of a far fla
 SETTING(r_flareFade, Float, 7.0f, 0, 1000, C, "1/s", "how fast a flare comes and goes")
 SETTING(r_flareCoeff, Float, 150.0f, 0, 100000, C, "", "brightness of far flares over near ones")
 SETTING(r_cullTriangles, Int, 1, 0, 2, A, "", "leave out triangles that no pixel shows before they are drawn: 0 never, 1 if a processor draws, 2 always")
-SETTING(r_mergeStages, Int, 1, 0, 1, C, "", "stages of an opaque material in one pass; the picture is the same")
+SETTING(r_mergeStages, Int, 1, 0, 1, LC, "", "stages of an opaque material in one pass; the picture is the same")
 SETTING(r_drawSun, Int, 0, 0, 1, A, "", "the sun as a disc, where a sky shows")
 SETTING(r_clear, Int, 0, 0, 1, C, "", "start each frame in magenta")
 SETTING(r_showtris, Int, 0, 0, 1, C, "", "edges of all triangles")

@@ -18,12 +18,26 @@ constexpr float kDepthSlack = 1e-5f; // of w: rounding of the near plane's test
 constexpr uint32_t kLeft = 1, kRight = 2, kAbove = 4, kBelow = 8, kNear = 16;
 constexpr uint32_t kUnknown = 32; // no place on the screen
 
-/// Is there a sample in [least, greatest] of one axis?
-bool holdsSample(float least, float greatest, float slackPx) {
-    return std::floor(greatest + slackPx - 0.5f) >= std::ceil(least - slackPx - 0.5f);
-}
+constexpr int kFewSamples = 8; // a triangle whose box holds more nearly always covers one
+
+/// Samples of one axis of the view that may lie in [least, greatest]; none if last < first.
+struct SampleRange {
+    SampleRange(float least, float greatest, float slackPx, float sizePx)
+        : first(std::max(std::ceil(least - slackPx - 0.5f), 0.0f))
+        , last(std::min(std::floor(greatest + slackPx - 0.5f), sizePx - 1.0f)) {}
+    float count() const { return last - first + 1.0f; }
+    float first, last;
+};
+
+float cross(const vec2& a, const vec2& b) { return a.x * b.y - a.y * b.x; }
 
 } // namespace
+
+bool rectangleShows(const vec2& corner, const vec2& opposite, const vec2& viewSizePx) {
+    const vec2 least = glm::min(corner, opposite), greatest = glm::max(corner, opposite);
+    return SampleRange(least.x, greatest.x, kSlackPx, viewSizePx.x).count() >= 1.0f &&
+           SampleRange(least.y, greatest.y, kSlackPx, viewSizePx.y).count() >= 1.0f;
+}
 
 TriangleCuller::TriangleCuller() { m_screen.reserve(busyFrame::kWorkVertices); }
 
@@ -49,14 +63,29 @@ bool TriangleCuller::shows(const TriangleView& view, const ScreenVertex& a, cons
     if ((a.outside | b.outside | c.outside) & (kUnknown | kNear)) return true;
     const vec2 least = glm::min(a.px, glm::min(b.px, c.px)), greatest = glm::max(a.px, glm::max(b.px, c.px));
     const float slackPx = view.manySamples ? 0.5f + kSlackPx : kSlackPx;
-    if (!holdsSample(least.x, greatest.x, slackPx) || !holdsSample(least.y, greatest.y, slackPx)) return false;
-    if (view.cull == CullMode::None) return true;
-    const vec2 ab = b.px - a.px, ac = c.px - a.px, extent = greatest - least;
+    const SampleRange columns(least.x, greatest.x, slackPx, view.sizePx.x),
+        rows(least.y, greatest.y, slackPx, view.sizePx.y);
+    if (columns.count() < 1.0f || rows.count() < 1.0f) return false;
     // Clockwise on the screen, whose y points down, is positive: the front, unless a mirror turns it round.
-    const float area = ab.x * ac.y - ab.y * ac.x;
+    const vec2 extent = greatest - least;
+    const float area = cross(b.px - a.px, c.px - a.px);
     const float doubtful = 2.0f * kSlackPx * (extent.x + extent.y + kSlackPx);
-    const bool frontShows = (view.cull == CullMode::Front) != view.mirrored;
-    return frontShows ? area > -doubtful : area < doubtful;
+    if (view.cull != CullMode::None) {
+        const bool frontShows = (view.cull == CullMode::Front) != view.mirrored;
+        if (frontShows ? area <= -doubtful : area >= doubtful) return false;
+    }
+    if (view.manySamples || columns.count() * rows.count() > kFewSamples || std::abs(area) <= doubtful) return true;
+    const float turn = area > 0 ? 1.0f : -1.0f;
+    for (float row = rows.first; row <= rows.last; ++row) {
+        for (float column = columns.first; column <= columns.last; ++column) {
+            const vec2 sample(column + 0.5f, row + 0.5f);
+            const float outside = std::min({turn * cross(b.px - a.px, sample - a.px), //
+                                            turn * cross(c.px - b.px, sample - b.px), //
+                                            turn * cross(a.px - c.px, sample - c.px)});
+            if (outside > -doubtful) return true;
+        }
+    }
+    return false;
 }
 
 void TriangleCuller::cull(const TriangleView& view, std::span<const Vertex> vertices, std::vector<uint32_t>& indices,

@@ -19,6 +19,9 @@ struct TriangleView {
     bool manySamples = false; ///< a pixel has samples beside its centre
 };
 
+/// Does the middle of a pixel lie in this rectangle, or so near that the driver may see it there? Pixels.
+bool rectangleShows(const vec2& corner, const vec2& opposite, const vec2& viewSizePx);
+
 class TriangleCuller {
   public:
     TriangleCuller();

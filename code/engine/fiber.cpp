@@ -1,5 +1,9 @@
+// Jumps between stacks are meant here; the hardened longjmp takes each for an error.
+#undef _FORTIFY_SOURCE
+
 #include "engine/fiber.hpp"
 
+#include <csetjmp>
 #include <cstdint>
 #include <cstring>
 #include <cxxabi.h>
@@ -37,12 +41,18 @@ void exchangeExceptionState(ExceptionState& saved) {
     std::swap(*current, saved);
 }
 
+/// Leaves this stack at `here` and goes on where `there` was left. Signal masks stay: unlike swapcontext, no system
+/// call.
+[[gnu::noinline]] void switchStack(std::jmp_buf& here, std::jmp_buf& there) {
+    if (_setjmp(here) == 0) _longjmp(there, 1);
+}
+
 size_t pageBytes() { return static_cast<size_t>(sysconf(_SC_PAGESIZE)); }
 
 } // namespace
 
 struct Fiber::State {
-    ucontext_t own{}, resumer{};
+    std::jmp_buf own, resumer;
     std::byte* mapping = nullptr;
     size_t mappingBytes = 0;
     std::byte* stack = nullptr; ///< lowest usable byte, above the guard page
@@ -70,13 +80,28 @@ Fiber::Fiber(size_t stackBytes, Entry entry, void* argument)
     mprotect(state.mapping, pageBytes(), PROT_NONE); // an overflow must fault, not run into a neighbour
     state.entry = entry;
     state.argument = argument;
-    getcontext(&state.own);
-    state.own.uc_stack.ss_sp = state.stack;
-    state.own.uc_stack.ss_size = stackBytes;
+    enterStack();
+}
+
+/// The first switch to the stack, which comes back at once: from then on it can be jumped to.
+void Fiber::enterStack() {
+    State& state = *m_state;
+    ucontext_t first{}, unused{};
+    getcontext(&first);
+    first.uc_stack.ss_sp = state.stack;
+    first.uc_stack.ss_size = state.stackBytes;
     // makecontext hands over ints only: the pointer travels in two halves.
     const auto address = reinterpret_cast<uintptr_t>(this);
-    makecontext(&state.own, reinterpret_cast<void (*)()>(&Fiber::start), 2, static_cast<unsigned>(address),
+    makecontext(&first, reinterpret_cast<void (*)()>(&Fiber::start), 2, static_cast<unsigned>(address),
                 static_cast<unsigned>(address >> 32));
+#ifdef Q3RT_ADDRESS_SANITIZER
+    void* fakeStack = nullptr;
+    __sanitizer_start_switch_fiber(&fakeStack, state.stack, state.stackBytes);
+#endif
+    if (_setjmp(state.resumer) == 0) swapcontext(&unused, &first);
+#ifdef Q3RT_ADDRESS_SANITIZER
+    __sanitizer_finish_switch_fiber(fakeStack, nullptr, nullptr);
+#endif
 }
 
 Fiber::~Fiber() {
@@ -93,6 +118,7 @@ void Fiber::start(unsigned low, unsigned high) {
 #ifdef Q3RT_ADDRESS_SANITIZER
     __sanitizer_finish_switch_fiber(nullptr, &state.resumerStack, &state.resumerStackBytes);
 #endif
+    fiber->suspend();
     state.entry(state.argument);
     std::terminate();
 }
@@ -104,7 +130,7 @@ void Fiber::resume() {
     void* fakeStack = nullptr;
     __sanitizer_start_switch_fiber(&fakeStack, state.stack, state.stackBytes);
 #endif
-    swapcontext(&state.resumer, &state.own);
+    switchStack(state.resumer, state.own);
 #ifdef Q3RT_ADDRESS_SANITIZER
     __sanitizer_finish_switch_fiber(fakeStack, nullptr, nullptr);
 #endif
@@ -116,7 +142,7 @@ void Fiber::suspend() {
 #ifdef Q3RT_ADDRESS_SANITIZER
     __sanitizer_start_switch_fiber(&state.fakeStack, state.resumerStack, state.resumerStackBytes);
 #endif
-    swapcontext(&state.own, &state.resumer);
+    switchStack(state.own, state.resumer);
 #ifdef Q3RT_ADDRESS_SANITIZER
     __sanitizer_finish_switch_fiber(state.fakeStack, &state.resumerStack, &state.resumerStackBytes);
 #endif

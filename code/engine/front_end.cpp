@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <malloc.h>
 
 #include "base/error.hpp"
 #include "base/log.hpp"
@@ -96,7 +97,9 @@ void FrontEnd::shutdownRegistration() {
 }
 
 void FrontEnd::endRegistration() {
-    if (registered()) onEndRegistration();
+    if (!registered()) return;
+    onEndRegistration();
+    malloc_trim(0); // decoded images and files have gone: their memory back to the system
 }
 
 int FrontEnd::registerModel(std::string_view name) { return registered() ? m_models->registerModel(name) : 0; }

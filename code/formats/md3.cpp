@@ -20,26 +20,14 @@ constexpr size_t kShaderBytes = 68;
 constexpr size_t kTriangleBytes = 12;
 constexpr size_t kStBytes = 8;
 constexpr size_t kVertexBytes = 8;
-constexpr float kPositionUnit = 1.0f / 64.0f; ///< qu a step of a stored coordinate
 
 /// The sine that model normals were encoded against: 1024 steps, yet divided by 1023.
-const std::array<float, 1024>& sineTable() {
-    static const std::array<float, 1024> table = [] {
-        std::array<float, 1024> sines{};
-        for (size_t i = 0; i < sines.size(); ++i)
-            sines[i] = static_cast<float>(std::sin(static_cast<double>(i) * 2.0 * std::numbers::pi / 1023.0));
-        return sines;
-    }();
-    return table;
-}
-
-/// High byte: latitude, low byte: longitude, 256 steps a turn.
-vec3 decodeNormal(uint16_t code) {
-    const auto& sine = sineTable();
-    const size_t latitude = size_t{4} * (code >> 8), longitude = size_t{4} * (code & 255);
-    const auto cosine = [&](size_t step) { return sine[(step + 256) & 1023]; };
-    return {cosine(latitude) * sine[longitude], sine[latitude] * sine[longitude], cosine(longitude)};
-}
+const std::array<float, 1024> kSines = [] {
+    std::array<float, 1024> sines{};
+    for (size_t i = 0; i < sines.size(); ++i)
+        sines[i] = static_cast<float>(std::sin(static_cast<double>(i) * 2.0 * std::numbers::pi / 1023.0));
+    return sines;
+}();
 
 struct SurfaceHeader {
     std::string name;
@@ -188,12 +176,11 @@ class Md3Parser {
         }
         const uint64_t vertexTotal = uint64_t{header.vertexCount} * m_frameCount;
         ByteReader vertices(array(block, header.verticesOffset, vertexTotal, kVertexBytes, "vertices"), m_name);
-        surface.positions.resize(static_cast<size_t>(vertexTotal));
-        surface.normals.resize(static_cast<size_t>(vertexTotal));
-        for (size_t i = 0; i < surface.positions.size(); ++i) {
-            for (int axis = 0; axis < 3; ++axis)
-                surface.positions[i][axis] = static_cast<float>(vertices.read<int16_t>()) * kPositionUnit;
-            surface.normals[i] = decodeNormal(vertices.read<uint16_t>());
+        surface.vertices.resize(static_cast<size_t>(vertexTotal));
+        for (Md3Vertex& vertex : surface.vertices) {
+            for (int16_t& step : vertex.steps)
+                step = vertices.read<int16_t>();
+            vertex.normalCode = vertices.read<uint16_t>();
         }
         return surface;
     }
@@ -204,6 +191,13 @@ class Md3Parser {
 };
 
 } // namespace
+
+vec3 Md3Vertex::normal() const {
+    // High byte: latitude, low byte: longitude, 256 steps a turn.
+    const size_t latitude = size_t{4} * (normalCode >> 8), longitude = size_t{4} * (normalCode & 255);
+    const auto cosine = [&](size_t step) { return kSines[(step + 256) & 1023]; };
+    return {cosine(latitude) * kSines[longitude], kSines[latitude] * kSines[longitude], cosine(longitude)};
+}
 
 Md3 parseMd3(std::span<const std::byte> file, std::string_view name) { return Md3Parser(file, name).parse(); }
 

@@ -61,20 +61,18 @@ void Md3Mesh::appendVertices(size_t index, const FramePair& frames, std::span<co
     const size_t count = surface.vertexCount;
     const size_t first = out.size();
     out.resize(first + count);
-    const vec3* position = surface.positions.data() + static_cast<size_t>(frames.frame) * count;
-    const vec3* normal = surface.normals.data() + static_cast<size_t>(frames.frame) * count;
+    const Md3Vertex* now = surface.vertices.data() + static_cast<size_t>(frames.frame) * count;
     Vertex* vertex = out.data() + first;
     if (frames.backLerp == 0.0f) {
         for (size_t i = 0; i < count; ++i)
-            vertex[i] = {position[i], normal[i], surface.st[i], vec2(0.0f), kWhite, 0};
+            vertex[i] = {now[i].position(), now[i].normal(), surface.st[i], vec2(0.0f), kWhite, 0};
         return;
     }
-    const vec3* oldPosition = surface.positions.data() + static_cast<size_t>(frames.oldFrame) * count;
-    const vec3* oldNormal = surface.normals.data() + static_cast<size_t>(frames.oldFrame) * count;
+    const Md3Vertex* old = surface.vertices.data() + static_cast<size_t>(frames.oldFrame) * count;
     const float weight = 1.0f - frames.backLerp;
     for (size_t i = 0; i < count; ++i) {
-        vertex[i] = {oldPosition[i] * frames.backLerp + position[i] * weight,
-                     fastNormalize(oldNormal[i] * frames.backLerp + normal[i] * weight),
+        vertex[i] = {old[i].position() * frames.backLerp + now[i].position() * weight,
+                     fastNormalize(old[i].normal() * frames.backLerp + now[i].normal() * weight),
                      surface.st[i],
                      vec2(0.0f),
                      kWhite,

@@ -39,8 +39,8 @@ TEST(Md3, ReadsFramesTagsAndSurfaces) {
     EXPECT_EQ(surface.indices, (std::vector<uint32_t>{0, 1, 2}));
     EXPECT_EQ(surface.st[1], vec2(1, 0));
     EXPECT_EQ(surface.vertexCount, 3u);
-    ASSERT_EQ(surface.positions.size(), 6u);
-    EXPECT_EQ(surface.positions[4], vec3(4, -1, 0.5f)); // vertex 1 of frame 1
+    ASSERT_EQ(surface.vertices.size(), 6u);
+    EXPECT_EQ(surface.vertices[4].position(), vec3(4, -1, 0.5f)); // vertex 1 of frame 1
 }
 
 TEST(Md3, SurfaceNamesLoseTheirCaseAndNumber) {
@@ -55,7 +55,7 @@ TEST(Md3, NormalsFollowTheTableOf1023Steps) {
     const auto sine = [](int step) { return std::sin((step & 1023) * 2.0 * std::numbers::pi / 1023.0); };
     for (int vertex = 0; vertex < 6; ++vertex) {
         const int code = vertex * 37, latitude = 4 * (code >> 8), longitude = 4 * (code & 255);
-        const vec3 n = model.surfaces[0].normals[static_cast<size_t>(vertex)];
+        const vec3 n = model.surfaces[0].vertices[static_cast<size_t>(vertex)].normal();
         // Each factor is rounded to float once, the product once more: 3 roundings of 2^-24.
         const double bound = 3.0 / (1 << 24);
         EXPECT_NEAR(n.x, sine(latitude + 256) * sine(longitude), bound);

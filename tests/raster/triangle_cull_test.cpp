@@ -67,7 +67,17 @@ TEST(TriangleCull, WhatIsLeftOutCoversNoSample) {
         }
     }
     EXPECT_GT(leftOut, kTriangles / 2);
-    EXPECT_LT(needless, kTriangles / 5); // slivers and corners between samples
+    EXPECT_LT(needless, kTriangles / 20); // slivers, and corners between many samples
+}
+
+TEST(TriangleCull, ARectangleShowsWhereItHoldsThePixelsMiddle) {
+    const vec2 view(kSizePx);
+    EXPECT_TRUE(rectangleShows({3.4f, 3.4f}, {3.6f, 3.6f}, view));
+    EXPECT_TRUE(rectangleShows({3.6f, 3.6f}, {3.4f, 3.4f}, view)) << "turned round";
+    EXPECT_FALSE(rectangleShows({3.6f, 3.0f}, {4.4f, 4.0f}, view)) << "between columns";
+    EXPECT_FALSE(rectangleShows({3.0f, 3.6f}, {4.0f, 4.4f}, view)) << "between rows";
+    EXPECT_TRUE(rectangleShows({-100.0f, -100.0f}, {100.0f, 100.0f}, view));
+    EXPECT_FALSE(rectangleShows({kSizePx, 0.0f}, {kSizePx + 8.0f, 8.0f}, view)) << "right of the picture";
 }
 
 TEST(TriangleCull, NothingBehindTheEyeIsJudgedByItsPlace) {
