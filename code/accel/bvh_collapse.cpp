@@ -29,7 +29,6 @@ float Collapse::costOf(const BuildChild& child, uint32_t places) const {
 void Collapse::plan(uint32_t node, float area, const BvhBuildSettings& settings) {
     const BuildChild &left = m_tree[node].child[0], &right = m_tree[node].child[1];
     Plan& plan = m_plans[node];
-    plan.count = itemCount(left) + itemCount(right);
     float shared[kBvhWidth + 1];
     for (uint32_t places = 2; places <= kBvhWidth; ++places) {
         shared[places] = std::numeric_limits<float>::max();
@@ -42,8 +41,9 @@ void Collapse::plan(uint32_t node, float area, const BvhBuildSettings& settings)
         }
     }
     plan.cost[1] = shared[kBvhWidth] + settings.traversalCost * area;
-    const float leafCost = area * static_cast<float>(plan.count);
-    if (plan.count <= leafLimit(settings) && leafCost <= plan.cost[1]) {
+    const uint32_t count = left.count + right.count;
+    const float leafCost = area * static_cast<float>(count);
+    if (count <= leafLimit(settings) && leafCost <= plan.cost[1]) {
         plan.cost[1] = leafCost;
         plan.leaf = true;
     }

@@ -8,7 +8,7 @@ namespace q3rt {
 /// A child of a node of four.
 struct WideChild {
     const BuildChild* source = nullptr;
-    bool leaf = true; ///< all items below `source`
+    bool leaf = true; ///< of all its items
 };
 struct WideChildren {
     WideChild child[kBvhWidth];
@@ -28,7 +28,6 @@ class Collapse {
     /// What a subtree costs that is given up to n places in its parent, n = 1 to kBvhWidth - 1, and how.
     struct Plan {
         float cost[kBvhWidth] = {};             ///< [0] unused
-        uint32_t count = 0;                     ///< of items
         uint8_t leftPlaces[kBvhWidth + 1] = {}; ///< of its left child; 0: fewer places do; [kBvhWidth]: of its own node
         bool leaf = false;                      ///< if it has one place
     };
@@ -36,7 +35,6 @@ class Collapse {
     std::vector<Plan> m_plans;
 
     float costOf(const BuildChild& child, uint32_t places) const;
-    uint32_t itemCount(const BuildChild& child) const { return child.leaf ? child.count : m_plans[child.node].count; }
     void plan(uint32_t node, float area, const BvhBuildSettings& settings);
     void addChildren(const BuildChild& child, uint32_t places, WideChildren& wide) const;
 };

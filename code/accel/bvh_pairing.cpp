@@ -32,7 +32,7 @@ size_t closestAfter(const std::vector<BuildChild>& level, const std::vector<bool
 
 Bvh buildPairing(std::span<const Bounds> boxes) {
     uint32_t rejected = 0;
-    const std::vector<BuildItem> items = collectItems(boxes, rejected);
+    std::vector<BuildItem> items = collectItems(boxes, rejected);
     std::vector<BuildNode> tree;
     std::vector<BuildChild> level;
     for (uint32_t i = 0; i < items.size(); ++i)
@@ -62,6 +62,7 @@ Bvh buildPairing(std::span<const Bounds> boxes) {
     } else {
         root = level[0].node;
     }
+    orderItems(tree, root, items);
     return layOut(tree, root, items, rejected, {});
 }
 

@@ -188,11 +188,13 @@ class Reinsertion {
 
 } // namespace
 
-void reinsertSubtrees(std::vector<BuildNode>& tree, uint32_t root) {
+void reinsertSubtrees(std::vector<BuildNode>& tree, uint32_t root, std::vector<BuildItem>& items) {
     if (tree[root].child[0].leaf && tree[root].child[1].leaf) return;
     Reinsertion reinsertion(tree, root);
     reinsertion.run();
-    if (reinsertion.depth() <= kBvhMaxDepth) reinsertion.writeBack();
+    if (reinsertion.depth() > kBvhMaxDepth) return;
+    reinsertion.writeBack();
+    orderItems(tree, root, items);
 }
 
 } // namespace q3rt

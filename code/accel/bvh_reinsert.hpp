@@ -7,8 +7,8 @@
 
 namespace q3rt {
 
-/// Moves subtrees where that lessens the sum of all inner nodes' areas. Leaves and the root stay what they are. A tree
-/// that would become deeper than kBvhMaxDepth is left as it was.
-void reinsertSubtrees(std::vector<BuildNode>& tree, uint32_t root);
+/// Moves subtrees where that lessens the sum of all inner nodes' areas. Leaves and the root stay what they are; items
+/// are sorted anew. A tree that would become deeper than kBvhMaxDepth is left as it was.
+void reinsertSubtrees(std::vector<BuildNode>& tree, uint32_t root, std::vector<BuildItem>& items);
 
 } // namespace q3rt

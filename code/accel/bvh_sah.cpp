@@ -183,7 +183,7 @@ Bvh buildSah(std::span<const Bounds> boxes, const BvhBuildSettings& settings) {
     std::vector<BuildItem> items = collectItems(boxes, rejected);
     SahBuilder builder(items, settings);
     std::vector<BuildNode>& tree = builder.build();
-    if (settings.reinsert) reinsertSubtrees(tree, 0);
+    if (settings.reinsert) reinsertSubtrees(tree, 0, items);
     return layOut(tree, 0, items, rejected, settings);
 }
 

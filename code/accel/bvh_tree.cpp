@@ -15,23 +15,27 @@ bool isGood(const Bounds& box) {
     return true;
 }
 
-uint8_t groupsOfItems(std::span<const uint32_t> inputs, std::span<const uint8_t> groups) {
+/// Of a leaf.
+uint8_t groupsOfItems(std::span<const BuildItem> items, std::span<const uint8_t> groups) {
+    if (groups.empty()) return kBvhSolidGroup | kBvhOtherGroup;
     uint8_t bits = 0;
-    for (const uint32_t input : inputs)
-        bits |= groups[input];
+    for (const BuildItem& item : items)
+        bits |= groups[item.input];
     return bits;
 }
 
-/// Inputs of all items below.
-void appendItems(const std::vector<BuildNode>& tree, const BuildChild& child, std::span<const BuildItem> items,
-                 std::vector<uint32_t>& order) {
+void placeItems(std::vector<BuildNode>& tree, BuildChild& child, std::span<const BuildItem> items,
+                std::vector<BuildItem>& placed) {
+    const auto first = static_cast<uint32_t>(placed.size());
     if (child.leaf) {
-        for (const BuildItem& item : items.subspan(child.first, child.count))
-            order.push_back(item.input);
-        return;
+        const auto own = items.subspan(child.first, child.count);
+        placed.insert(placed.end(), own.begin(), own.end());
+    } else {
+        for (BuildChild& below : tree[child.node].child)
+            placeItems(tree, below, items, placed);
     }
-    appendItems(tree, tree[child.node].child[0], items, order);
-    appendItems(tree, tree[child.node].child[1], items, order);
+    child.first = first;
+    child.count = static_cast<uint32_t>(placed.size()) - first;
 }
 
 /// A parent's bits for its inner children, which stand behind it.
@@ -61,14 +65,24 @@ std::vector<BuildItem> collectItems(std::span<const Bounds> items, uint32_t& rej
     return result;
 }
 
+void orderItems(std::vector<BuildNode>& tree, uint32_t root, std::vector<BuildItem>& items) {
+    std::vector<BuildItem> placed;
+    placed.reserve(items.size());
+    for (BuildChild& child : tree[root].child)
+        placeItems(tree, child, items, placed);
+    items.swap(placed);
+}
+
 Bvh layOut(const std::vector<BuildNode>& tree, uint32_t root, std::span<const BuildItem> items, uint32_t rejectedCount,
            const BvhBuildSettings& settings) {
     Bvh bvh;
     bvh.rejectedCount = rejectedCount;
     bvh.order.reserve(items.size());
     Box4 bounds;
-    for (const BuildItem& item : items)
+    for (const BuildItem& item : items) {
+        bvh.order.push_back(item.input);
         bounds.add(item.box);
+    }
     if (!items.empty()) bvh.bounds = {bounds.low(), bounds.high()};
 
     struct Pending {
@@ -91,16 +105,10 @@ Bvh layOut(const std::vector<BuildNode>& tree, uint32_t root, std::span<const Bu
             content.box[slot] = child->box;
             content.groups[slot] = kBvhSolidGroup | kBvhOtherGroup;
             if (leaf) {
-                const auto first = static_cast<uint32_t>(bvh.order.size());
-                appendItems(tree, *child, items, bvh.order);
-                const auto count = static_cast<uint32_t>(bvh.order.size()) - first;
-                content.child[slot] = leafWord(first, count);
-                if (!settings.groups.empty())
-                    content.groups[slot] = groupsOfItems(std::span(bvh.order).subspan(first), settings.groups);
-                cost += child->box.halfArea() * static_cast<float>(count);
-            } else {
-                cost += child->box.halfArea();
+                content.child[slot] = leafWord(child->first, child->count);
+                content.groups[slot] = groupsOfItems(items.subspan(child->first, child->count), settings.groups);
             }
+            cost += child->box.halfArea() * (leaf ? static_cast<float>(child->count) : 1.0f);
         }
         bvh.nodes.push_back(packNode(content));
         for (uint32_t slot = wide.count; slot-- > 0;)

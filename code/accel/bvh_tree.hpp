@@ -18,7 +18,7 @@ struct BuildItem {
 /// Good items only (see bvh.hpp); counts the others.
 std::vector<BuildItem> collectItems(std::span<const Bounds> items, uint32_t& rejectedCount);
 
-/// A child of a node under construction: a range of items with its box.
+/// A child of a node under construction: a range of items, all that are below it, with its box.
 struct BuildChild {
     Box4 box;
     uint32_t first = 0, count = 0; ///< of items
@@ -29,6 +29,9 @@ struct BuildChild {
 struct BuildNode {
     BuildChild child[2];
 };
+
+/// Sorts items as a walk through the tree meets them, and tells every child which are its own.
+void orderItems(std::vector<BuildNode>& tree, uint32_t root, std::vector<BuildItem>& items);
 
 /// Collapses the tree under `root` to four children a node, lays it out depth first, and fills the rest of the Bvh.
 Bvh layOut(const std::vector<BuildNode>& tree, uint32_t root, std::span<const BuildItem> items, uint32_t rejectedCount,

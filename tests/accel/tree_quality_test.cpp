@@ -81,16 +81,11 @@ class EveryCollapse {
     const std::vector<BuildNode>& m_tree;
     const BvhBuildSettings& m_settings;
 
-    uint32_t itemCount(const BuildChild& child) const {
-        if (child.leaf) return child.count;
-        return itemCount(m_tree[child.node].child[0]) + itemCount(m_tree[child.node].child[1]);
-    }
     float costOf(const BuildChild& child) const {
-        const uint32_t count = itemCount(child);
-        const float area = child.box.halfArea(), asLeaf = area * static_cast<float>(count);
+        const float area = child.box.halfArea(), asLeaf = area * static_cast<float>(child.count);
         if (child.leaf) return asLeaf;
         const float asNode = m_settings.traversalCost * area + costBelow(child.node);
-        return count <= m_settings.maxLeafItems ? std::min(asLeaf, asNode) : asNode;
+        return child.count <= m_settings.maxLeafItems ? std::min(asLeaf, asNode) : asNode;
     }
     /// Children before `from` stay.
     void tryOpening(const Front& front, size_t from, float& best) const {
@@ -116,7 +111,8 @@ TEST(TreeQuality, TheCollapseIsTheCheapestOfAll) {
         const BvhBuildSettings settings{.maxLeafItems = 1 + static_cast<uint32_t>(random() % 6),
                                         .traversalCost = uniform(random, 0.3f, 3)};
         std::vector<BuildItem> items;
-        const std::vector<BuildNode> tree = randomTree(random, 2 + static_cast<uint32_t>(random() % 9), items);
+        std::vector<BuildNode> tree = randomTree(random, 2 + static_cast<uint32_t>(random() % 9), items);
+        orderItems(tree, 0, items);
         const Bvh bvh = layOut(tree, 0, items, 0, settings);
         EXPECT_EQ(bvh.order.size(), items.size());
         // What the stored tree costs, by the boxes that it was made of.
@@ -129,16 +125,7 @@ TEST(TreeQuality, TheCollapseIsTheCheapestOfAll) {
             ++nodes;
             for (uint32_t slot = 0; slot < wide.count; ++slot) {
                 const auto& [source, leaf] = wide.child[slot];
-                uint32_t count = 0;
-                std::vector<const BuildChild*> below{source};
-                for (size_t k = 0; k < below.size(); ++k)
-                    if (below[k]->leaf) {
-                        count += below[k]->count;
-                    } else {
-                        below.push_back(&tree[below[k]->node].child[0]);
-                        below.push_back(&tree[below[k]->node].child[1]);
-                    }
-                cost += source->box.halfArea() * (leaf ? static_cast<float>(count) : settings.traversalCost);
+                cost += source->box.halfArea() * (leaf ? static_cast<float>(source->count) : settings.traversalCost);
                 if (!leaf) open.push_back(source->node);
             }
         }
@@ -181,6 +168,36 @@ TEST(TreeQuality, MovedSubtreesCostLessAndFindTheSame) {
     }
     EXPECT_GT(hits, 2000u);
     EXPECT_LT(visits[1], visits[0]);
+}
+
+/// Walks through a subtree; false if its items are not the next ones.
+bool walksInOrder(const Bvh& bvh, uint32_t node, uint32_t& next) {
+    for (uint32_t slot = 0; slot < kBvhWidth; ++slot) {
+        const uint32_t child = bvh.nodes[node].child[slot];
+        if (groupsOf(bvh.nodes[node], slot) == 0) continue;
+        if (child & kBvhLeafBit) {
+            if (leafFirst(child) != next) return false;
+            next += leafCount(child);
+        } else if (!walksInOrder(bvh, child, next)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+TEST(TreeQuality, ItemsAreInTheOrderOfTheWalk) {
+    // A driver that halves this order again and again (lavapipe) makes a tree that is twice as slow in another one.
+    Random random(3);
+    const std::vector<Bounds> boxes = triangleBounds(longTriangles(random, 3000));
+    size_t cases = 0;
+    for (const Bvh& bvh : {buildSah(boxes), buildSah(boxes, {.reinsert = true}), buildMorton(boxes),
+                           buildPairing(std::span(boxes).first(500))}) {
+        uint32_t next = 0;
+        EXPECT_TRUE(walksInOrder(bvh, 0, next)) << "tree " << cases;
+        EXPECT_EQ(next, bvh.order.size());
+        ++cases;
+    }
+    EXPECT_EQ(cases, 4u);
 }
 
 TEST(TreeQuality, OddTreesStayWithinTheDepthBoundAndTakeNoLonger) {
