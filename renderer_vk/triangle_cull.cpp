@@ -53,7 +53,7 @@ TriangleCuller::ScreenVertex TriangleCuller::project(const TriangleView& view, c
     if (!(clip.w > kLeastW))
         result.outside |= kUnknown;
     else
-        result.px = (vec2(clip) / clip.w + 1.0f) * 0.5f * view.sizePx;
+        result.px = (vec2(clip) * (1.0f / clip.w) + 1.0f) * (0.5f * view.sizePx);
     return result;
 }
 
@@ -88,9 +88,10 @@ bool TriangleCuller::shows(const TriangleView& view, const ScreenVertex& a, cons
     return false;
 }
 
-void TriangleCuller::cull(const TriangleView& view, std::span<const Vertex> vertices, std::vector<uint32_t>& indices,
+void TriangleCuller::cull(const TriangleView& wanted, std::span<const Vertex> vertices, std::vector<uint32_t>& indices,
                           size_t first) {
     if (first >= indices.size()) return;
+    const TriangleView view = wanted; // a copy that nothing written here may be: its part of the work is done once
     const auto range = std::minmax_element(indices.begin() + static_cast<std::ptrdiff_t>(first), indices.end());
     const uint32_t least = *range.first, count = *range.second - least + 1;
     m_screen.resize(count);

@@ -3,6 +3,7 @@
 // trace/trace_event.hpp.
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -73,12 +74,12 @@ struct LightForPoint {
 struct RegisterFont {
     std::string name;
     int32_t pointSize = 0;
-    fontInfo_t font{};
+    std::shared_ptr<fontInfo_t> font = std::make_shared<fontInfo_t>(); ///< apart: it makes 20 KB of every event
     template <class Archive>
     void fields(Archive& a) {
         a(name);
         a(pointSize);
-        a(font);
+        a(*font);
     }
 };
 struct RemapShader {

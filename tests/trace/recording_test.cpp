@@ -58,7 +58,7 @@ void writeSample(const fs::path& path, int frames) {
     writer.add(event::Register{event::HandleKind::Shader, "white", 1});
     addFrame(writer, 0);
     writer.add(event::LoadWorld{"maps/a.bsp"});
-    writer.add(event::RegisterFont{"fonts/x", 16, {}});
+    writer.add(event::RegisterFont{"fonts/x", 16});
     addFrame(writer, 1);
     writer.add(event::EndRegistration{});
     writer.add(event::AddPolys{1, 3, std::vector<polyVert_t>(6)});

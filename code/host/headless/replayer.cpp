@@ -97,7 +97,7 @@ struct Replayer::Player {
         fontInfo_t font{};
         enter([&](const refexport_t& module) { module.RegisterFont(e.name.c_str(), e.pointSize, &font); });
         for (int i = 0; i < Q3_GLYPH_COUNT; ++i)
-            replayer.m_shaders[e.font.glyphs[i].glyph] = font.glyphs[i].glyph;
+            replayer.m_shaders[e.font->glyphs[i].glyph] = font.glyphs[i].glyph;
         replayer.m_shaders.erase(0);
     }
     void operator()(const event::RemapShader& e) const {

@@ -250,8 +250,8 @@ void modelBounds(qhandle_t model, vec3_t mins, vec3_t maxs) {
 void registerFont(const char* name, int pointSize, fontInfo_t* font) {
     recording.inner.RegisterFont(name, pointSize, font);
     note([=](Recorder& recorder) {
-        event::RegisterFont noted{name, pointSize, *font};
-        for (glyphInfo_t& glyph : noted.font.glyphs)
+        event::RegisterFont noted{name, pointSize, std::make_shared<fontInfo_t>(*font)};
+        for (glyphInfo_t& glyph : noted.font->glyphs)
             glyph.glyph = recorder.shaders.add(glyph.glyph);
         recorder.writer.add(std::move(noted));
     });
