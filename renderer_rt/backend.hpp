@@ -1,7 +1,9 @@
 #pragma once
 // What traces rays. Shading code never knows; see shaders/trace/trace.glsl.
 
+#include <cstdint>
 #include <string_view>
+#include <vector>
 
 namespace q3rt {
 
@@ -22,5 +24,8 @@ bool isAvailable(Backend backend, const Capabilities& capabilities);
 
 /// Do the driver's acceleration structures hold the scene?
 inline bool usesStructures(Backend backend) { return backend != Backend::Compute; }
+
+/// Specialisation of shaders/trace/trace_compute.glsl for a device.
+std::vector<uint32_t> traversalConstants(const Capabilities& can);
 
 } // namespace q3rt

@@ -23,9 +23,16 @@ void TraceRenderer::drawWorldView(FrameGraph& graph, FrameTargets& targets, cons
         addOutput(graph, resources, targets, work, describeOutput(buffers, view));
         return;
     }
+    addLook(graph, resources, work);
+    addShade(graph, resources, work);
     addPrimary(graph, resources, work);
     if (buffers.denoiser) buffers.denoiser->addBeforeDirect(graph, resources);
-    addDirect(graph, resources, work);
+    if (view.frame.lightsPerPixel == 1) {
+        addChoose(graph, resources, work);
+        addShadows(graph, resources, work);
+    } else {
+        addDirect(graph, resources, work);
+    }
     if (buffers.denoiser) buffers.denoiser->addAfterDirect(graph, resources);
     if (buffers.exposure) addExposureAdapt(graph, resources, work, m_exposureStep);
     if (!m_settings.rt_accumulate) addComposite(graph, resources, work);

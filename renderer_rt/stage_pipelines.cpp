@@ -1,15 +1,24 @@
 #include "renderer_rt/stage_pipelines.hpp"
 
 #include "gpu/device.hpp"
+#include "renderer_rt/view_buffers.hpp"
+#include "spirv/rt_choose_comp.hpp"
 #include "spirv/rt_direct_compute.hpp"
 #include "spirv/rt_direct_query.hpp"
 #include "spirv/rt_direct_rgen.hpp"
+#include "spirv/rt_look_compute.hpp"
+#include "spirv/rt_look_query.hpp"
+#include "spirv/rt_look_rgen.hpp"
 #include "spirv/rt_plain_compute.hpp"
 #include "spirv/rt_plain_query.hpp"
 #include "spirv/rt_plain_rgen.hpp"
 #include "spirv/rt_primary_compute.hpp"
 #include "spirv/rt_primary_query.hpp"
 #include "spirv/rt_primary_rgen.hpp"
+#include "spirv/rt_shade_comp.hpp"
+#include "spirv/rt_shadows_compute.hpp"
+#include "spirv/rt_shadows_query.hpp"
+#include "spirv/rt_shadows_rgen.hpp"
 #include "spirv/trace_accept_rahit.hpp"
 #include "spirv/trace_layers_rahit.hpp"
 #include "spirv/trace_layers_rmiss.hpp"
@@ -26,14 +35,21 @@ struct StageCode {
 };
 
 StageCode codeOf(TraceStage stage) {
+    if (stage == TraceStage::Look)
+        return {"look", shaders::rt_look_rgen, shaders::rt_look_query, shaders::rt_look_compute};
     if (stage == TraceStage::Primary)
         return {"primary", shaders::rt_primary_rgen, shaders::rt_primary_query, shaders::rt_primary_compute};
     if (stage == TraceStage::Plain)
         return {"plain", shaders::rt_plain_rgen, shaders::rt_plain_query, shaders::rt_plain_compute};
+    if (stage == TraceStage::Shadows)
+        return {"shadows", shaders::rt_shadows_rgen, shaders::rt_shadows_query, shaders::rt_shadows_compute};
     return {"direct", shaders::rt_direct_rgen, shaders::rt_direct_query, shaders::rt_direct_compute};
 }
 
-size_t indexOf(TraceStage stage) { return static_cast<size_t>(stage); }
+template <typename Stage>
+size_t indexOf(Stage stage) {
+    return static_cast<size_t>(stage);
+}
 
 } // namespace
 
@@ -46,8 +62,15 @@ StagePipelines::StagePipelines(Device& device, Backend backend, VkDescriptorSetL
             DescriptorLayout(device, {{0, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR}}, "traced scene");
         m_interface.sets.push_back(m_structureLayout.handle());
     }
+    createTraceStage(device, TraceStage::Look);
     createTraceStage(device, TraceStage::Primary);
     createTraceStage(device, TraceStage::Direct);
+    createTraceStage(device, TraceStage::Shadows);
+    const PipelineInterface interface { .sets = {textures}, .pushConstantBytes = sizeof(RtPush) };
+    m_pointStages[indexOf(PointStage::Shade)] =
+        ComputePipeline(device, {"shade", {shaders::rt_shade_comp, {}}, interface});
+    m_pointStages[indexOf(PointStage::Choose)] =
+        ComputePipeline(device, {"choose", {shaders::rt_choose_comp, {}}, interface});
 }
 
 void StagePipelines::requirePlain(Device& device) {
@@ -58,8 +81,9 @@ void StagePipelines::requirePlain(Device& device) {
 void StagePipelines::createTraceStage(Device& device, TraceStage stage) {
     const StageCode code = codeOf(stage);
     if (m_backend != Backend::Pipeline) {
-        const Spirv words = m_backend == Backend::Query ? code.query : code.compute;
-        m_computeStages[indexOf(stage)] = ComputePipeline(device, {code.name, {words, {}}, m_interface});
+        ShaderStage shader{code.query, {}};
+        if (m_backend == Backend::Compute) shader = {code.compute, traversalConstants(device.capabilities())};
+        m_computeStages[indexOf(stage)] = ComputePipeline(device, {code.name, shader, m_interface});
         return;
     }
     RayTracingPipelineInfo info;
@@ -98,6 +122,15 @@ void StagePipelines::dispatch(VkCommandBuffer commands, TraceStage stage, const 
     pipeline.dispatchOver(commands, input.extent);
 }
 
+void StagePipelines::dispatch(VkCommandBuffer commands, PointStage stage, const StageInput& input) const {
+    const ComputePipeline& pipeline = m_pointStages[indexOf(stage)];
+    pipeline.bind(commands);
+    pipeline.bindSets(commands, {input.textures});
+    pipeline.push(commands, input.push);
+    const uint32_t side = stage == PointStage::Choose ? kShadowTile : 8;
+    pipeline.dispatchOver(commands, input.extent, side, side);
+}
+
 void StagePipelines::warm(VkCommandBuffer commands, const StageInput& input) const {
     const VkMemoryBarrier2 order{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
                                  .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
@@ -106,12 +139,17 @@ void StagePipelines::warm(VkCommandBuffer commands, const StageInput& input) con
                                  .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
     const VkDependencyInfo dependency{
         .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &order};
-    dispatch(commands, TraceStage::Primary, input);
-    vkCmdPipelineBarrier2KHR(commands, &dependency);
-    dispatch(commands, TraceStage::Direct, input);
-    if (!m_hasPlain) return;
-    vkCmdPipelineBarrier2KHR(commands, &dependency);
-    dispatch(commands, TraceStage::Plain, input);
+    const auto run = [&](auto stage, VkExtent2D extent) {
+        dispatch(commands, stage, {input.textures, input.structures, input.push, extent});
+        vkCmdPipelineBarrier2KHR(commands, &dependency);
+    };
+    run(TraceStage::Look, input.extent);
+    run(PointStage::Shade, input.extent);
+    run(TraceStage::Primary, input.extent);
+    run(PointStage::Choose, input.extent);
+    run(TraceStage::Shadows, wholeTiles(input.extent));
+    run(TraceStage::Direct, input.extent);
+    if (m_hasPlain) run(TraceStage::Plain, input.extent);
 }
 
 const Access& StagePipelines::bufferRead() const {

@@ -14,8 +14,11 @@
 namespace q3rt {
 
 /// Stages that trace rays.
-enum class TraceStage { Primary, Direct, Plain };
-inline constexpr size_t kTraceStageCount = 3;
+enum class TraceStage { Look, Primary, Direct, Shadows, Plain };
+inline constexpr size_t kTraceStageCount = 5;
+/// Stages between them that trace none: one text for all back ends.
+enum class PointStage { Shade, Choose };
+inline constexpr size_t kPointStageCount = 2;
 
 /// What a dispatch binds.
 struct StageInput {
@@ -32,6 +35,7 @@ class StagePipelines {
     void requirePlain(Device& device);
     bool hasPlain() const { return m_hasPlain; }
     void dispatch(VkCommandBuffer commands, TraceStage stage, const StageInput& input) const;
+    void dispatch(VkCommandBuffer commands, PointStage stage, const StageInput& input) const;
     /// Runs each stage once, so that the driver compiles them now.
     void warm(VkCommandBuffer commands, const StageInput& input) const;
     const DescriptorLayout& structureLayout() const { return m_structureLayout; }
@@ -51,6 +55,7 @@ class StagePipelines {
     bool m_hasPlain = false;
     std::array<RayTracingPipeline, kTraceStageCount> m_tracePipelines;
     std::array<ComputePipeline, kTraceStageCount> m_computeStages;
+    std::array<ComputePipeline, kPointStageCount> m_pointStages;
 };
 
 } // namespace q3rt

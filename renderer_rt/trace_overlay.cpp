@@ -45,6 +45,10 @@ std::vector<FrameCommand> layoutText(const std::vector<std::string>& lines, int 
     return out;
 }
 
+bool isTracing(std::string_view pass) {
+    return pass == "look" || pass == "primary" || pass == "shadows" || pass == "direct" || pass == "plain";
+}
+
 } // namespace
 
 void TraceRenderer::registerOverlayFont() { m_overlayFont = registerShader(kFontShader, false); }
@@ -72,7 +76,7 @@ std::vector<std::string> TraceRenderer::performanceLines() {
     double total = 0, tracing = 0;
     for (const TimerRow& pass : passTimes()) {
         total += pass.ms;
-        if (pass.name == "primary" || pass.name == "direct" || pass.name == "plain") tracing += pass.ms;
+        if (isTracing(pass.name)) tracing += pass.ms;
         lines.push_back(formatText("%8.2f %s", pass.ms, pass.name.c_str()));
     }
     lines.front() = formatText("%8.2f ms in all, %s", total, backendName());

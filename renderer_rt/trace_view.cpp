@@ -163,7 +163,10 @@ const TracedView& TraceRenderer::prepareView(const FrameCommands& frame, const S
     view.frame.frame = m_frameNumber++;
     preparePicture(frame, scene, buffers, view.frame);
     prepareHistory(frame, scene, buffers, view.frame);
+    view.frame.looks = buffers.looks.address();
     view.frame.pixels = buffers.pixels.address();
+    view.frame.shadowRays = buffers.shadowRays.address();
+    view.frame.shadowOrder = buffers.shadowOrder.address();
     view.frame.irradiance = buffers.irradiance.address();
     view.frame.ambientL = buffers.ambient.address();
     view.frame.lighting = buffers.denoiser ? buffers.denoiser->lighting().address() : view.frame.irradiance;

@@ -17,6 +17,11 @@ VkExtent2D strataOf(VkExtent2D extent) {
             (extent.height + kStratumPixels - 1) / kStratumPixels};
 }
 
+VkExtent2D wholeTiles(VkExtent2D extent) {
+    const auto whole = [](uint32_t pixels) { return (pixels + kShadowTile - 1) / kShadowTile * kShadowTile; };
+    return {whole(extent.width), whole(extent.height)};
+}
+
 GuideBuffers::GuideBuffers(Device& device, VkExtent2D extent)
     : guides(makeViewBuffer(device, extent, sizeof(RtGuide), "guides"))
     , previousGuides(makeViewBuffer(device, extent, sizeof(RtGuide), "previous guides"))
@@ -25,7 +30,10 @@ GuideBuffers::GuideBuffers(Device& device, VkExtent2D extent)
 ViewBuffers::ViewBuffers(Device& device, const VkRect2D& viewArea, VkExtent2D tracedExtent)
     : area(viewArea)
     , extent(tracedExtent)
+    , looks(makeViewBuffer(device, extent, sizeof(RtLook), "looks"))
     , pixels(makeViewBuffer(device, extent, sizeof(RtPixel), "pixels"))
+    , shadowRays(makeViewBuffer(device, extent, sizeof(RtShadowRay), "shadow rays"))
+    , shadowOrder(makeViewBuffer(device, wholeTiles(extent), sizeof(uint32_t), "shadow order"))
     , irradiance(makeViewBuffer(device, extent, sizeof(vec4), "irradiance"))
     , ambient(makeViewBuffer(device, extent, sizeof(vec4), "ambient"))
     , radiance(makeViewBuffer(device, extent, sizeof(vec4), "radiance"))

@@ -10,6 +10,8 @@
 #include "renderer_rt/view_motion.hpp"
 #include "shaders/shared/rt_denoise.h"
 #include "shaders/shared/rt_exposure.h"
+#include "shaders/shared/rt_look.h"
+#include "shaders/shared/rt_shadow.h"
 #include "shaders/shared/rt_sums.h"
 #include "shaders/shared/rt_taa.h"
 
@@ -20,6 +22,9 @@ Buffer makeViewBuffer(Device& device, VkExtent2D extent, size_t bytes, const cha
 
 /// Strata of a picture, those at the right and lower edges perhaps cut.
 VkExtent2D strataOf(VkExtent2D extent);
+
+/// The least extent of whole tiles of shadow rays that covers the picture.
+VkExtent2D wholeTiles(VkExtent2D extent);
 
 /// What finds a pixel's place in the frame before.
 struct GuideBuffers {
@@ -48,7 +53,7 @@ struct SumBuffers {
 struct ViewBuffers {
     VkRect2D area{};     ///< on the target
     VkExtent2D extent{}; ///< of what is traced, pixels
-    Buffer pixels, irradiance, ambient, radiance, picture;
+    Buffer looks, pixels, shadowRays, shadowOrder, irradiance, ambient, radiance, picture;
     ViewMotion motion;
     std::unique_ptr<GuideBuffers> guides; ///< null: there is no history of any kind
     std::unique_ptr<Denoiser> denoiser;   ///< null: none

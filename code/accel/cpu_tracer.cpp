@@ -42,6 +42,7 @@ float onBvhTriangle(BvhQuery& query, uint, BVH_TABLE table, uint index, const Tr
     return query.anyHit ? kBvhFound : test.t;
 }
 
+constexpr bool kBvhDescends = false;
 #include "trace/bvh_traverse.glsl"
 
 uint64_t addressOf(const BvhNode& node) { return reinterpret_cast<uint64_t>(&node); }

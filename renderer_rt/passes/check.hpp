@@ -28,6 +28,8 @@ inline constexpr ItemLayout kColorItem{4, 0xf}, kPairItem{2, 0x3};
 inline constexpr ItemLayout kSumsItem{wordsOf<RtSums>(), (1u << wordsOf<RtSums>()) - 1u};
 inline constexpr ItemLayout kGuideItem{wordsOf<RtGuide>(), floatsAt(offsetof(RtGuide, position), 3)};
 inline constexpr ItemLayout kPastItem{wordsOf<RtPast>(), floatsAt(offsetof(RtPast, position), 3)};
+inline constexpr ItemLayout kLookItem{wordsOf<RtLook>(),
+                                      floatsAt(offsetof(RtLook, t), 1) | floatsAt(offsetof(RtLook, barycentric), 2)};
 inline constexpr ItemLayout kPixelItem{
     wordsOf<RtPixel>(), floatsAt(offsetof(RtPixel, position), 3) | floatsAt(offsetof(RtPixel, error), 3) |
                             floatsAt(offsetof(RtPixel, normal), 3) | floatsAt(offsetof(RtPixel, geometricNormal), 3) |

@@ -21,9 +21,11 @@ struct FiniteCheck {
 /// The graph's handles of one view, in their newest versions.
 struct ViewResources {
     BufferId structures;                ///< a token: orders builds and traces
+    BufferId looks;                     ///< RtLook[]
     BufferId pixels;                    ///< RtPixel[]
     BufferId guides, previousGuides;    ///< RtGuide[], if there is a history
     BufferId pasts;                     ///< RtPast[], likewise
+    BufferId shadowRays, shadowOrder;   ///< RtShadowRay[] and lists of them
     BufferId irradiance;                ///< vec4[]: direct light
     BufferId ambient;                   ///< vec4[]
     BufferId lighting;                  ///< vec4[]: irradiance, or what the denoiser made of it
@@ -52,11 +54,19 @@ struct ViewWork {
 /// "acceleration": structures of what moves, then the top level.
 void addAcceleration(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
 ViewResources importView(FrameGraph& graph, ViewBuffers& buffers);
-/// "primary": camera rays to RtPixel, and to guides and pasts if there is a history.
+/// "look": camera rays to what they meet first.
+void addLook(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
+/// "shade": pixels for which that is all to RtPixel, and to guides and pasts if there is a history.
+void addShade(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
+/// "primary": the other pixels to the same, by more rays.
 void addPrimary(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
 /// "plain": camera and shadow rays to a picture of white surfaces, in place of all passes up to the output.
 void addPlain(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
-/// "direct": shadow rays to irradiance.
+/// "choose": one light a pixel to unshadowed irradiance and a shadow ray.
+void addChoose(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
+/// "shadows": those rays take irradiance away.
+void addShadows(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
+/// "direct": all lights, or several choices a pixel, to irradiance, in place of the two.
 void addDirect(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
 struct ExposureStep {
     bool first = false;  ///< nothing is known of the view yet

@@ -9,6 +9,7 @@ void addPrimary(FrameGraph& graph, ViewResources& resources, const ViewWork& wor
         [&](PassBuilder& pass) {
             pass.read(resources.structures, work.pipelines.structureRead());
             if (resources.countsWork) resources.report = pass.write(resources.report, work.pipelines.bufferWrite());
+            pass.read(resources.looks, work.pipelines.bufferRead());
             resources.pixels = pass.write(resources.pixels, work.pipelines.bufferWrite());
             if (!resources.guides) return;
             resources.guides = pass.write(resources.guides, work.pipelines.bufferWrite());

@@ -10,6 +10,7 @@ struct LightSample {
     vec3 irradiance; // unshadowed estimate, already divided by the density of the sampled point
     vec3 direction;  // from the shaded point to the sampled point; the shadow ray covers t in [0, 1)
     bool fromSky;    // the ray must end on a sky; else its way must be free
+    uint light;      // its number: whoever chooses among several sets it
 };
 
 LightSample darkSample(vec3 direction)
@@ -18,6 +19,7 @@ LightSample darkSample(vec3 direction)
     result.irradiance = vec3(0.0f);
     result.direction = direction;
     result.fromSky = false;
+    result.light = 0u;
     return result;
 }
 

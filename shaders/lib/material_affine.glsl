@@ -127,6 +127,12 @@ AffineColor multiplyAffine(StageSource source, AffineColor frame)
     return result;
 }
 
+// Can S F have a term of L^2 or L D? Only those read the baked light.
+bool multipliesLight(StageState s, AffineColor frame)
+{
+    return s.blended != 0u && (frame.lit != vec3(0.0f) || frame.through != vec3(0.0f));
+}
+
 // value * factor, where `product` is S F and `isSource` tells which of the two `value` is.
 AffineColor applyFactor(uint factor, AffineColor value, AffineColor product, float alpha, bool isSource)
 {

@@ -17,10 +17,9 @@ Candidate findCandidate(uint instance, uint triangle)
     result.triangle = findTriangle(instance, triangle);
     result.surface = SurfaceTable(rtFrame.surfaces).at[result.triangle.surface];
     RtEntity entity = EntityTable(rtFrame.entities).at[result.triangle.entity];
-    VertexTable vertices = VertexTable(result.triangle.vertices);
-    vec3 a = pointToWorld(entity, vertices.at[result.triangle.vertex.x].position);
-    vec3 b = pointToWorld(entity, vertices.at[result.triangle.vertex.y].position);
-    vec3 c = pointToWorld(entity, vertices.at[result.triangle.vertex.z].position);
+    vec3 a = pointToWorld(entity, loadVertexPosition(result.triangle.vertices, result.triangle.vertex.x));
+    vec3 b = pointToWorld(entity, loadVertexPosition(result.triangle.vertices, result.triangle.vertex.y));
+    vec3 c = pointToWorld(entity, loadVertexPosition(result.triangle.vertices, result.triangle.vertex.z));
     result.facing = cross(c - a, b - a);
     return result;
 }

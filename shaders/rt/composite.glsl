@@ -18,7 +18,7 @@ struct Composed {
 // `lighting`: vec4[], direct light.
 Composed composePixel(uint index, uvec2 lighting)
 {
-    RtPixel pixel = PixelTable(rtFrame.pixels).at[index];
+    RtPixel pixel = loadPixel(rtFrame.pixels, index);
     vec3 light = ColorTable(lighting).at[index].rgb + ColorTable(rtFrame.ambientL).at[index].rgb;
     // What is no number must not get into a mean.
     if (any(isnan(light)) || any(isinf(light)))

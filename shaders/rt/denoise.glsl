@@ -7,7 +7,6 @@
 #include "shared/rt_denoise.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer DenoiseTable { RtDenoise value; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer PixelTable { RtPixel at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer ColorTable { vec4 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer PairTable { vec2 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer WinnerTable { uint at[]; };

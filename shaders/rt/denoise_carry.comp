@@ -16,21 +16,23 @@ void main()
     if (winner == kNoWinner)
         return;
     uint from = pixelIndex(pixelOfStratum(winnerStratum(winner), winnerFromPixel(winner)));
-    RtPixel old = PixelTable(denoise.previousPixels).at[from];
-    RtGuide oldGuide = GuideTable(denoise.previousGuides).at[from];
+    RtPixel old = loadPixel(denoise.previousPixels, from);
+    RtGuide oldGuide = loadGuide(denoise.previousGuides, from);
     RtMotion motion = MotionTable(denoise.motionToCurrent).at[old.instance];
     HitPoint point =
         movePoint(motion, old.triangle, unpackUnorm2x16(old.barycentric), HitPoint(old.position, old.error));
     vec3 seen = (old.lit & kLitTurned) != 0u ? oldGuide.position : point.position;
     vec3 normal = moveDirection(motion, old.normal);
     uint index = pixelIndex(pixelOfStratum(stratum, winnerToPixel(winner)));
-    PixelTable(denoise.pixels).at[index].position = point.position;
-    PixelTable(denoise.pixels).at[index].lit = old.lit;
-    PixelTable(denoise.pixels).at[index].error = point.error;
-    PixelTable(denoise.pixels).at[index].keyPixel = old.keyPixel;
-    PixelTable(denoise.pixels).at[index].normal = normal;
-    PixelTable(denoise.pixels).at[index].keyFrame = old.keyFrame;
-    PixelTable(denoise.pixels).at[index].geometricNormal = moveDirection(motion, old.geometricNormal);
-    GuideTable(denoise.guides).at[index] = RtGuide(seen, packNormal(normal));
-    PastTable(denoise.pasts).at[index] = RtPast(oldGuide.position, oldGuide.normal);
+    RtPixel pixel = loadPixel(denoise.pixels, index);
+    pixel.position = point.position;
+    pixel.lit = old.lit;
+    pixel.error = point.error;
+    pixel.keyPixel = old.keyPixel;
+    pixel.normal = normal;
+    pixel.keyFrame = old.keyFrame;
+    pixel.geometricNormal = moveDirection(motion, old.geometricNormal);
+    storePixel(denoise.pixels, index, pixel);
+    storeGuide(denoise.guides, index, RtGuide(seen, packNormal(normal)));
+    storePast(denoise.pasts, index, RtPast(oldGuide.position, oldGuide.normal));
 }

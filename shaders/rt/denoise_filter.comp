@@ -15,10 +15,9 @@ void main()
     uvec2 size = denoise.size;
     if (any(greaterThanEqual(pixel, size)))
         return;
-    GuideTable guides = GuideTable(denoise.guides);
     ColorTable from = ColorTable(denoise.filtered[push.level & 1u]);
     uint index = pixel.y * size.x + pixel.x;
-    RtGuide center = guides.at[index];
+    RtGuide center = loadGuide(denoise.guides, index);
     vec4 light = from.at[index];
     if (center.normal != kNoNormal) {
         vec3 normal = unpackNormal(center.normal);
@@ -33,7 +32,7 @@ void main()
                 if ((x == 0 && y == 0) || any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, ivec2(size))))
                     continue;
                 uint tapIndex = uint(tap.y) * size.x + uint(tap.x);
-                RtGuide guide = guides.at[tapIndex];
+                RtGuide guide = loadGuide(denoise.guides, tapIndex);
                 if (guide.normal == kNoNormal)
                     continue;
                 vec4 tapLight = from.at[tapIndex];

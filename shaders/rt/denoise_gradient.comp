@@ -21,7 +21,7 @@ void main()
         vec3 now = ColorTable(denoise.irradiance).at[to].rgb;
         // Lit at the same place, a sample repeats bit for bit. One that has moved may choose another light, or meet a
         // shadow's edge: its change has the whole spread of samples.
-        bool moved = GuideTable(denoise.guides).at[to].position != PastTable(denoise.pasts).at[to].position;
+        bool moved = loadGuide(denoise.guides, to).position != loadPast(denoise.pasts, to).position;
         float change = luminanceOf(now) - luminanceOf(old);
         if (isFinite(old) && isFinite(now))
             gradient = vec3(change, max(luminanceOf(now), luminanceOf(old)), moved ? change * change : 0.0);

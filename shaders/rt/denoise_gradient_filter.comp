@@ -11,7 +11,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 // The middle of a stratum stands for it.
 RtGuide guideOfStratum(uvec2 stratum)
 {
-    return GuideTable(denoise.guides).at[pixelIndex(min(stratum * kStratumPixels + 1u, denoise.size - 1u))];
+    return loadGuide(denoise.guides, pixelIndex(min(stratum * kStratumPixels + 1u, denoise.size - 1u)));
 }
 
 void main()

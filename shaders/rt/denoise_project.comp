@@ -8,20 +8,20 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 // A sample that was itself carried is not carried on: its random numbers would follow the surface for ever.
-bool mayCarry(uvec2 pixel)
+bool mayCarry(uvec2 position)
 {
-    if (!isInside(ivec2(pixel)))
+    if (!isInside(ivec2(position)))
         return false;
-    uint index = pixelIndex(pixel);
-    return PixelTable(denoise.previousPixels).at[index].lit != 0u &&
-           PixelTable(denoise.previousPixels).at[index].keyFrame == denoise.previousFrame;
+    uint index = pixelIndex(position);
+    RtPixel pixel = loadPixel(denoise.previousPixels, index);
+    return pixel.lit != 0u && pixel.keyFrame == denoise.previousFrame;
 }
 
 void projectSample(uint stratum, uint number)
 {
     uvec2 from = pixelOfStratum(stratum, number);
-    RtPixel old = PixelTable(denoise.previousPixels).at[pixelIndex(from)];
-    vec3 oldSeen = GuideTable(denoise.previousGuides).at[pixelIndex(from)].position;
+    RtPixel old = loadPixel(denoise.previousPixels, pixelIndex(from));
+    vec3 oldSeen = loadGuide(denoise.previousGuides, pixelIndex(from)).position;
     RtMotion motion = MotionTable(denoise.motionToCurrent).at[old.instance];
     // What moves in a mirror is not followed: the way there is not kept.
     if (motion.kind == kMotionUnknown || (motion.kind != kMotionNone && (old.lit & kLitTurned) != 0u))
@@ -35,7 +35,7 @@ void projectSample(uint stratum, uint number)
     ivec2 to = ivec2(floor(vec2(from) + 0.5 + (after.xy - before.xy) * vec2(denoise.size)));
     if (!isInside(to))
         return;
-    RtGuide guide = GuideTable(denoise.guides).at[pixelIndex(uvec2(to))];
+    RtGuide guide = loadGuide(denoise.guides, pixelIndex(uvec2(to)));
     if (guide.normal == kNoNormal)
         return;
     vec3 normal = unpackNormal(guide.normal);

@@ -26,7 +26,7 @@ void addTap(inout History history, Searched searched, ivec2 tap, float weight)
     if (weight <= 0.0 || !isInside(tap))
         return;
     uint index = pixelIndex(uvec2(tap));
-    RtGuide guide = GuideTable(denoise.previousGuides).at[index];
+    RtGuide guide = loadGuide(denoise.previousGuides, index);
     if (guide.normal == kNoNormal || !isSameSurface(searched.position, searched.normal, guide.position,
                                                     unpackNormal(guide.normal), searched.footprint, searched.cosine))
         return;
@@ -62,7 +62,7 @@ History findHistory(uvec2 pixel, RtGuide guide)
     History none = History(vec4(0.0), vec2(0.0), 0.0);
     if ((denoise.flags & kDenoiseHistory) == 0u)
         return none;
-    RtPast past = PastTable(denoise.pasts).at[pixelIndex(pixel)];
+    RtPast past = loadPast(denoise.pasts, pixelIndex(pixel));
     vec3 now = projectTo(denoise.camera, guide.position);
     vec3 before = projectTo(denoise.previousCamera, past.position);
     if (past.normal == kNoPast || now.z <= 0.0 || before.z <= 0.0)
@@ -82,7 +82,7 @@ void main()
     if (any(greaterThanEqual(pixel, denoise.size)))
         return;
     uint index = pixelIndex(pixel);
-    RtGuide guide = GuideTable(denoise.guides).at[index];
+    RtGuide guide = loadGuide(denoise.guides, index);
     vec3 light = ColorTable(denoise.irradiance).at[index].rgb;
     if (guide.normal == kNoNormal) {
         ColorTable(denoise.light).at[index] = vec4(light, 0.0);

@@ -21,7 +21,7 @@ float spatialVariance(uvec2 pixel, RtGuide center, float samples)
             if (!isInside(tap))
                 continue;
             uint index = pixelIndex(uvec2(tap));
-            RtGuide guide = GuideTable(denoise.guides).at[index];
+            RtGuide guide = loadGuide(denoise.guides, index);
             if (guide.normal == kNoNormal)
                 continue;
             float weight = normalWeight(dot(normal, unpackNormal(guide.normal))) *
@@ -60,7 +60,7 @@ void main()
         return;
     uint index = pixelIndex(pixel);
     vec4 light = ColorTable(denoise.light).at[index];
-    RtGuide guide = GuideTable(denoise.guides).at[index];
+    RtGuide guide = loadGuide(denoise.guides, index);
     float variance = 0.0;
     if (guide.normal != kNoNormal && light.w < kTemporalVarianceSamples)
         variance = spatialVariance(pixel, guide, light.w);

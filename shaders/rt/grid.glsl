@@ -1,9 +1,8 @@
 // The ambient term: the map's light grid at a point.
 #ifndef Q3RT_RT_GRID_GLSL
 #define Q3RT_RT_GRID_GLSL
+#include "rt/rows.glsl"
 #include "rt/scene.glsl"
-
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer GridTable { RtGridCell at[]; };
 
 struct GridSample {
     vec3 irradiance; // luxel units
@@ -30,7 +29,7 @@ GridSample sampleGrid(vec3 point, vec3 normal, uint lit)
             continue;
         vec3 axisWeights = mix(1.0 - f, f, vec3(step));
         int cellIndex = at.x + rtFrame.gridCounts.x * (at.y + rtFrame.gridCounts.y * at.z);
-        RtGridCell sampled = GridTable(rtFrame.grid).at[cellIndex];
+        RtGridCell sampled = loadGridCell(rtFrame.grid, uint(cellIndex));
         float weight = axisWeights.x * axisWeights.y * axisWeights.z * float(sampled.valid);
         bool model = (lit & kLitModel) != 0u;
         ambient += (model ? sampled.models.ambient : sampled.surfaces.ambient) * weight;

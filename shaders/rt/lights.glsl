@@ -5,16 +5,11 @@
 #include "lib/light_row.glsl"
 #include "lib/offset.glsl"
 #include "lib/random.glsl"
+#include "rt/rows.glsl"
 #include "rt/scene.glsl"
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer TriangleLightTable {
-    RtTriangleLight at[];
-};
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightRowTable { RtLightRow at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightEntryTable { RtLightEntry at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightColorTable { vec3 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightTable { RtLight at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer NodeTable { RtNode at[]; };
 
 // Dimensions of a pixel's numbers. A choice takes kDimensionChoice + its number (rt_numRandomDL is at most 64); where
 // all lights are tried each takes kDimensionLight + its number. Layers: + 256 x their number.
@@ -39,7 +34,7 @@ int clusterOf(vec3 point)
         return -1;
     int node = 0;
     while (node >= 0) {
-        RtNode at = NodeTable(rtFrame.nodes).at[node];
+        RtNode at = loadNode(rtFrame.nodes, uint(node));
         node = dot(at.plane.normal, point) - at.plane.distance > 0.0 ? at.front : at.back;
     }
     int cluster = -2 - node;
@@ -51,16 +46,16 @@ RtLightRow lightRowOf(vec3 point, vec3 normal)
 {
     int cluster = rtFrame.cullLights == 0u ? -1 : clusterOf(point);
     if (cluster < 0)
-        return LightRowTable(rtFrame.lightRows).at[rtFrame.clusterCount * kNormalClassCount];
+        return loadLightRow(rtFrame.lightRows, rtFrame.clusterCount * kNormalClassCount);
     uint first = uint(cluster) * kNormalClassCount;
-    RtLightRow row = LightRowTable(rtFrame.lightRows).at[first];
+    RtLightRow row = loadLightRow(rtFrame.lightRows, first);
     if (rtFrame.cullLights == 1u)
         return row;
     row.count = row.facing;
     uint which = normalClass(normal);
     if (which == 0u)
         return row;
-    RtLightRow narrower = LightRowTable(rtFrame.lightRows).at[first + which];
+    RtLightRow narrower = loadLightRow(rtFrame.lightRows, first + which);
     if (alongClass(which, point) < narrower.plane)
         return row;
     return narrower;
@@ -75,9 +70,9 @@ DrawnLight drawLight(RtLightRow row, uint bits)
 {
     uint column, rest;
     umulExtended(bits, row.facing, column, rest);
-    RtLightEntry entry = LightEntryTable(rtFrame.lightEntries).at[row.first + column];
+    RtLightEntry entry = loadLightEntry(rtFrame.lightEntries, row.first + column);
     if (unitFloat(rest) >= entry.chance)
-        entry = LightEntryTable(rtFrame.lightEntries).at[row.first + entry.other];
+        entry = loadLightEntry(rtFrame.lightEntries, row.first + entry.other);
     return DrawnLight(entry.light, entry.weight);
 }
 
@@ -90,7 +85,7 @@ struct ShadingPoint {
 
 LightSample sampleTriangle(uint light, ShadingPoint point, vec2 random)
 {
-    RtTriangleLight l = TriangleLightTable(rtFrame.triangleLights).at[light];
+    RtTriangleLight l = loadTriangleLight(rtFrame.triangleLights, light);
     LightSample result = sampleTriangleLight(point.origin, point.normal, l.corner, l.edge1, l.edge2, l.normal,
                                              l.areaQu2, l.radiance, (l.flags & kLightTwoSided) != 0u, random.x,
                                              random.y);

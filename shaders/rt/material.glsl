@@ -114,10 +114,12 @@ AffineColor addStages(AffineColor color, uint first, uint count, VertexIn vertex
         StageState stage = loadStage(first + i);
         if (reflects && stageAt(first + i).unit[0].coord == kCoordEnvironment)
             continue;
-        vec4 texel0 = shadingColor(sampleFiltered(first + i, 0u, vertex, vertexX, vertexY, entity.eye));
-        vec4 texel1 = stage.combine != kCombineSingle
-                          ? shadingColor(sampleFiltered(first + i, 1u, vertex, vertexX, vertexY, entity.eye))
-                          : vec4(1.0);
+        bool bakedCounts = stage.bakedLight != kBakedLightmap || multipliesLight(stage, color);
+        vec4 texel0 = vec4(1.0), texel1 = vec4(1.0);
+        if (bakedCounts || stage.unit[0].isLightmap == 0u)
+            texel0 = shadingColor(sampleFiltered(first + i, 0u, vertex, vertexX, vertexY, entity.eye));
+        if (stage.combine != kCombineSingle && (bakedCounts || stage.unit[0].isLightmap != 0u))
+            texel1 = shadingColor(sampleFiltered(first + i, 1u, vertex, vertexX, vertexY, entity.eye));
         vec4 generated = shadingColor(fadeColorInFog(stageColor(stage, vertex, entity), stage.fogFade, density));
         color = addStage(color, stage, generated, texel0, texel1);
     }
@@ -166,9 +168,9 @@ MaterialColor shadeSurface(SurfacePoint point, vec3 eye, vec3 forward)
 // Does any stage that covers what is behind pass its alpha test here? At the finest texels: rays of all kinds agree.
 bool isCovered(SceneTriangle triangle, RtSurface surface, vec2 barycentric)
 {
-    VertexTable vertices = VertexTable(triangle.vertices);
-    Vertex v0 = vertices.at[triangle.vertex.x], v1 = vertices.at[triangle.vertex.y];
-    Vertex v2 = vertices.at[triangle.vertex.z];
+    Vertex v0 = loadVertex(triangle.vertices, triangle.vertex.x);
+    Vertex v1 = loadVertex(triangle.vertices, triangle.vertex.y);
+    Vertex v2 = loadVertex(triangle.vertices, triangle.vertex.z);
     vec4 c0 = unpackUnorm4x8(v0.color), c1 = unpackUnorm4x8(v1.color), c2 = unpackUnorm4x8(v2.color);
     vec3 position =
         v0.position + (v1.position - v0.position) * barycentric.x + (v2.position - v0.position) * barycentric.y;

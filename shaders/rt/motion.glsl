@@ -3,13 +3,12 @@
 #define Q3RT_RT_MOTION_GLSL
 #include "lib/offset.glsl"
 #include "lib/projection.glsl"
+#include "rt/rows.glsl"
 #include "shared/rt_motion.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer MotionTable { RtMotion at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer CornerTable { vec3 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer CornerIndexTable { uint at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer GuideTable { RtGuide at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer PastTable { RtPast at[]; };
 
 vec3 projectTo(RtCamera camera, vec3 point)
 {

@@ -2,7 +2,7 @@
 // and what the filters over frames follow.
 #ifndef Q3RT_RT_PICTURE_GLSL
 #define Q3RT_RT_PICTURE_GLSL
-#include "rt/lights.glsl"
+#include "rt/camera.glsl"
 #include "rt/material.glsl"
 #include "rt/past.glsl"
 
@@ -81,6 +81,43 @@ void addLayer(inout Picture picture, CameraRay ray, SurfacePoint point, SurfaceP
     if (follows || (!picture.followed && through < kHidingShare))
         followLayer(picture, ray, point, place, normal);
     picture.passed *= color.through;
+}
+
+Picture beginPicture(CameraPlace place, uvec2 pixelPosition)
+{
+    Picture picture;
+    picture.at = place.at;
+    picture.lens = place.lens;
+    picture.onLens = place.near ? vec2(0.0) : place.lens;
+    picture.passed = vec3(1.0);
+    picture.weightSum = 0.0;
+    picture.followed = false;
+    picture.turns = 0u;
+    picture.reflected = false;
+    picture.reflection = Reflection(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, vec2(0.0));
+    picture.pixel = RtPixel(vec3(0.0), 0u, vec3(0.0), packKeyPixel(pixelPosition), vec3(0.0, 0.0, 1.0), rtFrame.frame,
+                            vec3(0.0, 0.0, 1.0), 0u, vec3(0.0), 0u, vec3(0.0), 0u);
+    return picture;
+}
+
+// The sky is followed as something as far as the map is large, which does not come nearer.
+void keepPlace(Picture picture, uvec2 pixelPosition)
+{
+    if (!picture.followed) {
+        vec3 direction = makeCameraRay(picture.at, picture.onLens).direction;
+        picture.guide = RtGuide(rtFrame.eye + direction * rtFrame.farQu, kNoNormal);
+        picture.past = RtPast(rtFrame.previousEye + direction * rtFrame.farQu, kNoNormal);
+    }
+    storeGuide(rtFrame.guides, pixelIndex(pixelPosition), picture.guide);
+    storePast(rtFrame.pasts, pixelIndex(pixelPosition), picture.past);
+}
+
+void keepPicture(Picture picture, uvec2 pixelPosition)
+{
+    picture.pixel.albedo *= picture.weightSum;
+    storePixel(rtFrame.pixels, pixelIndex(pixelPosition), picture.pixel);
+    if ((rtFrame.flags & kFrameHistory) != 0u)
+        keepPlace(picture, pixelPosition);
 }
 
 #endif

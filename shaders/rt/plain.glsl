@@ -10,10 +10,9 @@
 ShadingPoint findPlainPoint(Hit hit, vec3 direction)
 {
     SceneTriangle triangle = findTriangle(hit.instance, hit.triangle);
-    VertexTable vertices = VertexTable(triangle.vertices);
-    vec3 corner0 = vertices.at[triangle.vertex.x].position;
-    vec3 corner1 = vertices.at[triangle.vertex.y].position;
-    vec3 corner2 = vertices.at[triangle.vertex.z].position;
+    vec3 corner0 = loadVertexPosition(triangle.vertices, triangle.vertex.x);
+    vec3 corner1 = loadVertexPosition(triangle.vertices, triangle.vertex.y);
+    vec3 corner2 = loadVertexPosition(triangle.vertices, triangle.vertex.z);
     HitPoint at = makeHitPoint(corner0, corner1, corner2, hit.barycentric);
     vec3 normal = cross(corner2 - corner0, corner1 - corner0);
     if (triangle.entity != 0u) {
@@ -59,7 +58,7 @@ void plainPixel(uvec2 pixelPosition)
     if (hit.t > 0.0) {
         ShadingPoint point = findPlainPoint(hit, direction);
         LightSample lit = drawPlainLight(point, randomBits(randomKey(pixelPosition), kDimensionChoice));
-        light = shadowed(point, lit) / kWhiteIrradiance;
+        light = shadowed(point.origin, lit) / kWhiteIrradiance;
     }
     vec3 shown = clampKeepingHue(light * (rtFrame.lightScale * rtFrame.exposure));
     ColorTable(rtFrame.picture).at[pixelIndex(pixelPosition)] = vec4(shown, 1.0);

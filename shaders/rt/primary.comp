@@ -1,4 +1,5 @@
-// Primary stage, one camera ray a pixel: back ends `query` and `compute` (BACKEND_QUERY, BACKEND_COMPUTE).
+// Primary stage, the pixels that need more than one ray: back ends `query` and `compute` (BACKEND_QUERY,
+// BACKEND_COMPUTE).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #ifdef BACKEND_QUERY

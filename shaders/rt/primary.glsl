@@ -1,15 +1,14 @@
-// Primary stage of one pixel: the first solid along the camera ray, then the layers in front of it, composed exactly
-// from front to back:  picture = sum over layers of P_before x (A L + B),  P_before = product of the P in front.
+// Picture of one pixel: the first solid along the camera ray, then the layers in front of it, composed exactly from
+// front to back:  picture = sum over layers of P_before x (A L + B),  P_before = product of the P in front.
 // L is only known after the direct stage, for one point a pixel. If several layers take light, one of them is kept at
 // random in proportion to what L would be multiplied by, its A divided by that probability: the mean is exact.
 #ifndef Q3RT_RT_PRIMARY_GLSL
 #define Q3RT_RT_PRIMARY_GLSL
 #include "lib/random.glsl"
 #include "rt/accept.glsl"
+#include "rt/camera.glsl"
 #include "rt/picture.glsl"
-#include "rt/sampler.glsl"
 #include "rt/sky.glsl"
-#include "rt/turn.glsl"
 #include "rt/work.glsl"
 
 // Numbers of a ray's parts: near depth range 0, far one 1, one more for each turn; of a reflection from here on.
@@ -90,7 +89,7 @@ void look(inout Outlook view, CameraRay ray)
 {
     bool more = view.look == kLookLayers;
     uint solidMask = more ? 0u : view.look == kLookSky ? kMaskSky : ray.solidMask;
-    bool layered = (more || view.look == kLookAhead) && (rtFrame.flags & kFrameLayers) != 0u;
+    bool layered = (more || view.look == kLookAhead) && showsLayers();
     float from = more ? view.sight.layers.after.distance : view.from;
     float farthest = more ? view.limit : ray.from + rtFrame.farQu;
     Hit solid = view.sight.solid;
@@ -136,10 +135,6 @@ Hit nextSurface(inout Outlook view, uvec4 key, out vec2 random)
 void addRay(inout Picture picture, CameraRay ray, bool near, uint part, uvec4 key)
 {
     uint sky = 0u;
-    if (near) {
-        ray.solidMask = kMaskNearSolid;
-        ray.layerMask = kMaskNearLayer;
-    }
     Outlook view = lookAhead(ray);
     for (;;) {
         if (view.look != kLookNowhere) {
@@ -184,43 +179,17 @@ void addRay(inout Picture picture, CameraRay ray, bool near, uint part, uvec4 ke
                                                             ray.directionX, ray.directionY);
 }
 
-// The sky is followed as something as far as the map is large, which does not come nearer.
-void keepPlace(Picture picture, uvec2 pixelPosition)
-{
-    if (!picture.followed) {
-        vec3 direction = makeCameraRay(picture.at, picture.onLens).direction;
-        picture.guide = RtGuide(rtFrame.eye + direction * rtFrame.farQu, kNoNormal);
-        picture.past = RtPast(rtFrame.previousEye + direction * rtFrame.farQu, kNoNormal);
-    }
-    GuideTable(rtFrame.guides).at[pixelIndex(pixelPosition)] = picture.guide;
-    PastTable(rtFrame.pasts).at[pixelIndex(pixelPosition)] = picture.past;
-}
-
+// Draws the pixels that the stage before left.
 void primaryPixel(uvec2 pixelPosition)
 {
+    if ((loadLookState(rtFrame.looks, pixelIndex(pixelPosition)) & kLookOn) == 0u)
+        return;
+    CameraPlace place = cameraPlace(pixelPosition);
     uvec4 key = randomKey(pixelPosition);
-    vec4 numbers = (rtFrame.flags & (kFrameAntialiasing | kFrameLens)) != 0u ? sampleNumbers(key, kDimensionLens)
-                                                                              : vec4(0.5);
-    vec2 inPixel = vec2(0.5);
-    if ((rtFrame.flags & kFrameAntialiasing) != 0u)
-        inPixel = (rtFrame.flags & kFrameSharedJitter) != 0u ? rtFrame.jitter : numbers.xy;
-    Picture picture;
-    picture.at = vec2(pixelPosition) + inPixel;
-    picture.lens = sampleDisc(numbers.z, numbers.w);
-    picture.passed = vec3(1.0);
-    picture.weightSum = 0.0;
-    picture.followed = false;
-    picture.turns = 0u;
-    picture.reflected = false;
-    picture.reflection = Reflection(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, vec2(0.0));
-    picture.pixel = RtPixel(vec3(0.0), 0u, vec3(0.0), packKeyPixel(pixelPosition), vec3(0.0, 0.0, 1.0), rtFrame.frame,
-                            vec3(0.0, 0.0, 1.0), 0u, vec3(0.0), 0u, vec3(0.0), 0u);
-    bool near = (rtFrame.flags & kFrameNearEntities) != 0u &&
-                all(greaterThanEqual(picture.at, rtFrame.nearArea.xy)) &&
-                all(lessThanEqual(picture.at, rtFrame.nearArea.zw));
+    Picture picture = beginPicture(place, pixelPosition);
+    bool near = place.near;
     uint part = near ? 0u : 1u;
-    picture.onLens = near ? vec2(0.0) : picture.lens;
-    CameraRay ray = makeCameraRay(picture.at, picture.onLens);
+    CameraRay ray = near ? nearRay(picture.at) : makeCameraRay(picture.at, picture.onLens);
     // Once for the camera ray, once more for a reflection of it.
     for (;;) {
         addRay(picture, ray, near, part, key);
@@ -235,10 +204,7 @@ void primaryPixel(uvec2 pixelPosition)
         near = false;
         part = kReflectionPart;
     }
-    picture.pixel.albedo *= picture.weightSum;
-    PixelTable(rtFrame.pixels).at[pixelIndex(pixelPosition)] = picture.pixel;
-    if ((rtFrame.flags & kFrameHistory) != 0u)
-        keepPlace(picture, pixelPosition);
+    keepPicture(picture, pixelPosition);
     reportRays(pixelPosition);
 }
 

@@ -2,6 +2,7 @@
 #ifndef Q3RT_RT_SCENE_GLSL
 #define Q3RT_RT_SCENE_GLSL
 #include "lib/offset.glsl"
+#include "rt/rows.glsl"
 #include "shared/constants.h"
 #include "shared/rt_scene.h"
 #include "shared/stage.h"
@@ -11,12 +12,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Fra
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer InstanceTable { RtInstance at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SurfaceTable { RtSurface at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer EntityTable { RtEntity at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer VertexTable { Vertex at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer NumberTable { uint at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer StageTable { StageState at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SkyTable { RtSky at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FogTable { RtFog at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer PixelTable { RtPixel at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer ColorTable { vec4 at[]; };
 
 layout(push_constant, scalar) uniform Push { RtPush push; };

@@ -64,9 +64,9 @@ SurfacePoint makeSurfacePoint(uint instanceIndex, uint triangle, vec2 barycentri
                               vec3 directionX, vec3 directionY)
 {
     SceneTriangle found = findTriangle(instanceIndex, triangle);
-    VertexTable vertices = VertexTable(found.vertices);
     RtEntity entity = EntityTable(rtFrame.entities).at[found.entity];
-    Vertex v0 = vertices.at[found.vertex.x], v1 = vertices.at[found.vertex.y], v2 = vertices.at[found.vertex.z];
+    Vertex v0 = loadVertex(found.vertices, found.vertex.x), v1 = loadVertex(found.vertices, found.vertex.y),
+           v2 = loadVertex(found.vertices, found.vertex.z);
     SurfacePoint point;
     point.surface = SurfaceTable(rtFrame.surfaces).at[found.surface];
     point.entity = found.entity;

@@ -66,11 +66,11 @@ NewColor findColor(ivec2 pixel, vec2 center)
 ivec2 findNearest(ivec2 pixel)
 {
     ivec2 nearest = pixel;
-    vec3 away = GuideTable(taa.guides).at[indexOf(pixel)].position - taa.camera.eye;
+    vec3 away = loadGuide(taa.guides, indexOf(pixel)).position - taa.camera.eye;
     float best = dot(away, away);
     for (int i = 0; i < 9; ++i) {
         ivec2 tap = pixel + ivec2(i % 3 - 1, i / 3 - 1);
-        away = GuideTable(taa.guides).at[indexOf(tap)].position - taa.camera.eye;
+        away = loadGuide(taa.guides, indexOf(tap)).position - taa.camera.eye;
         float squared = dot(away, away);
         if (squared < best) {
             best = squared;
@@ -88,8 +88,8 @@ struct Shift {
 // How far what a pixel shows was from here in the previous picture.
 Shift findShift(ivec2 pixel)
 {
-    RtPast past = PastTable(taa.pasts).at[indexOf(pixel)];
-    vec3 here = projectTo(taa.camera, GuideTable(taa.guides).at[indexOf(pixel)].position);
+    RtPast past = loadPast(taa.pasts, indexOf(pixel));
+    vec3 here = projectTo(taa.camera, loadGuide(taa.guides, indexOf(pixel)).position);
     vec3 there = projectTo(taa.previousCamera, past.position);
     return Shift((there.xy - here.xy) * vec2(taa.outputSize), past.normal != kNoPast && here.z > 0.0 && there.z > 0.0);
 }

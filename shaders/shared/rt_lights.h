@@ -45,6 +45,9 @@ struct RtLightRow {
     uint facing; // the first so many also shine toward this row; one of them is chosen at random
     uint seesSky; // 0: no sky is potentially visible; suns cannot reach it
     float plane;  // classes 1 and up: the row serves points at least so far along their normal, qu
+    uint reserved0;
+    uint reserved1;
+    uint reserved2;
 };
 
 // A light of a row, and a column of the row's alias table over the facing ones.

@@ -83,6 +83,7 @@ struct RtNode {
     RtPlane plane;
     int front; // >= 0 a node; c < 0: cluster -2 - c (so -1 is "outside" as in the map)
     int back;
+    SHARED_UVEC2 reserved;
 };
 
 // Irradiance = ambient + directed x max(0, cosine of normal and direction), luxel units.
@@ -98,6 +99,7 @@ struct RtGridCell {
     vec3 direction; // toward the light, as stored: not unit after interpolation
     uint valid;     // 0: inside a wall
     float sunSeen; // share of the suns that shine here, [0, 1]: a guide for choosing lights
+    vec3 reserved;
 };
 
 struct RtSky {
@@ -179,7 +181,10 @@ struct RtFrame {
     SHARED_ADDRESS motionToPrevious; // RtMotion[], by instance of this frame
     SHARED_ADDRESS guides;           // RtGuide[]
     SHARED_ADDRESS pasts;            // RtPast[]
+    SHARED_ADDRESS looks; // RtLook[]
     SHARED_ADDRESS pixels;
+    SHARED_ADDRESS shadowRays;  // RtShadowRay[]
+    SHARED_ADDRESS shadowOrder; // uint[]: kShadowTilePixels a tile: numbers of its pixels with a ray, by light
     SHARED_ADDRESS irradiance; // vec4[]: traced L (1.0 = irradiance 63.75), one a pixel
     SHARED_ADDRESS ambientL;   // vec4[]: L of the light grid, without noise
     SHARED_ADDRESS lighting;   // vec4[]: traced L that the picture shows: `irradiance`, or what a denoiser made of it

@@ -1,5 +1,6 @@
 // Two-level traversal of our own tree: a stack, the child that the ray enters first goes first. Loops, no recursion;
 // bounded by the depth that builders guarantee. Pure but for what the includer defines:
+//   bool kBvhDescends                                        nodes are visited in a loop of their own, as far as a leaf
 //   struct BvhQuery                                          what the search carries along
 //   vec4 loadBvhPlane(BVH_TABLE nodes, uint index, uint plane)        a node's bounds[plane]
 //   uint loadBvhChild(BVH_TABLE nodes, uint index, uint slot)         its child[slot]
@@ -100,16 +101,27 @@ void traverseBvh(BVH_TABLE sceneNodes, vec3 origin, vec3 direction, float tMin, 
     uint child = 0u;
     for (;;) {
         uint slot = kBvhWidth;
-        if ((child & kBvhLeafBit) == 0u) {
+        bool inner = (child & kBvhLeafBit) == 0u;
+        while (inner) {
             uint first;
             uint met = visitBvhNode(ray.slabs, nodes, child, wanted, tMin, tMax, first);
-            if (met != 0u) {
-                if ((rest & slots) != 0u)
-                    stack[top++] = rest;
-                rest = (child << kBvhWidth) | met;
-                if ((met & (1u << first)) != 0u)
-                    slot = first;
-            }
+            if (met == 0u)
+                break;
+            if ((rest & slots) != 0u)
+                stack[top++] = rest;
+            rest = (child << kBvhWidth) | met;
+            if ((met & (1u << first)) == 0u)
+                break;
+            slot = first;
+            if (!kBvhDescends)
+                break;
+            rest ^= 1u << slot;
+            child = loadBvhChild(nodes, rest >> kBvhWidth, slot);
+            slot = kBvhWidth;
+            inner = (child & kBvhLeafBit) == 0u;
+        }
+        if (inner) {
+            // Its children are next.
         } else if (modelBase != kNoModel) {
             tMax = visitBvhLeaf(ray.triangle, item, triangles, child, tMin, tMax, query);
             if (tMax < 0.0)

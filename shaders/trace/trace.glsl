@@ -45,7 +45,10 @@ struct Layer {
 
 // As many first layers as one traversal collects; a full batch is followed by another one after its last key. Layers
 // are reached by constant indices only, so that they need not live in memory.
-const uint kLayersPerBatch = 4u;
+#ifndef LAYERS_PER_BATCH
+#define LAYERS_PER_BATCH 4u
+#endif
+const uint kLayersPerBatch = LAYERS_PER_BATCH;
 struct LayerBatch {
     LayerKey after;
     uint count;

@@ -51,6 +51,7 @@ float onBvhTriangle(BvhQuery& query, uint item, BVH_TABLE table, uint index, con
     return query.anyHit ? kBvhFound : test.t;
 }
 
+constexpr bool kBvhDescends = false;
 #include "trace/bvh_traverse.glsl"
 
 } // namespace

@@ -174,7 +174,7 @@ TEST_F(ShownPictureTest, NothingIsInfiniteInAnyPass) {
     const auto harness = makeRoom({{"rt_checkFinite", "1"}, {"q3rt_wantStats", "1"}, {"rt_autoExposure", "1"}});
     harness->draw(kCamera, 5);
     const auto stats = nlohmann::json::parse(harness->engine().cvars.value("q3rt_stats"));
-    for (const char* pass : {"primary", "direct", "denoise carry", "denoise temporal", "denoise variance",
+    for (const char* pass : {"look", "primary", "choose", "denoise carry", "denoise temporal", "denoise variance",
                              "denoise filter", "denoise gradient", "denoise gradient filter", "composite", "taa"}) {
         ASSERT_TRUE(stats["nonfinite"].contains(pass)) << pass;
         EXPECT_EQ(stats["nonfinite"][pass], 0) << pass;

@@ -1,6 +1,10 @@
 #include "direct_shader.hpp"
 
 #include "shaders/shared/constants.h"
+#include "shaders/shared/rt_look.h"
+#include "shaders/shared/rt_motion.h"
+#include "shaders/shared/rt_shadow.h"
+#include "shaders/shared/vertex.h"
 
 namespace q3rt::test {
 namespace {
@@ -58,9 +62,6 @@ uint pixelIndex(uvec2) { return 0; }
 struct NumberTable {
     uint at[1];
 };
-struct PixelTable {
-    RtPixel at[1];
-};
 struct ColorTable {
     Numbers4 at[1];
 };
@@ -74,15 +75,10 @@ struct ColorTable {
 #define buffer struct
 #define TABLE(name, address) (*reinterpret_cast<name*>(address))
 #define NumberTable(address) TABLE(NumberTable, address)
-#define PixelTable(address) TABLE(PixelTable, address)
+#define RowTable(address) TABLE(RowTable, address)
 #define ColorTable(address) TABLE(ColorTable, address)
-#define TriangleLightTable(address) TABLE(TriangleLightTable, address)
-#define LightRowTable(address) TABLE(LightRowTable, address)
-#define LightEntryTable(address) TABLE(LightEntryTable, address)
 #define LightColorTable(address) TABLE(LightColorTable, address)
 #define LightTable(address) TABLE(LightTable, address)
-#define NodeTable(address) TABLE(NodeTable, address)
-#define GridTable(address) TABLE(GridTable, address)
 #define vec4 Numbers4
 #include "rt/direct.glsl"
 #undef vec4
