@@ -10,11 +10,12 @@ bool canBeLayer(const Stage& stage) {
 }
 
 /// Every pixel that the first stage gives a colour gets that of the layer too, and no other does: equal depths pass
-/// both tests, and where an alpha test left a hole only `equal` keeps the layer out of it.
-bool canLayOver(const Stage& first, const Stage& layer) {
+/// both tests, and where an alpha test left a hole only `equal` keeps the layer out of it, unless a stage before has
+/// written that depth already (`depthBefore`).
+bool canLayOver(const Stage& first, const Stage& layer, bool depthBefore) {
     if (first.blended || !first.depthWrite || first.depthFunc != DepthFunc::LessEqual) return false;
     if (!canBeLayer(layer) || layer.fogFade != FogFade::None) return false;
-    return first.alphaTest == AlphaTest::None || layer.depthFunc == DepthFunc::Equal;
+    return first.alphaTest == AlphaTest::None || (layer.depthFunc == DepthFunc::Equal && !depthBefore);
 }
 
 LayerState layerOf(const Stage& stage) {
@@ -29,7 +30,7 @@ std::vector<StagePass> findStagePasses(const std::vector<Stage>& stages, bool me
     for (uint32_t i = 0; i < stages.size(); ++i) {
         if (merge && !passes.empty()) {
             StagePass& last = passes.back();
-            if (last.stageCount < kMaxLayers && canLayOver(stages[last.firstStage], stages[i])) {
+            if (last.stageCount < kMaxLayers && canLayOver(stages[last.firstStage], stages[i], last.firstStage > 0)) {
                 last.layers[last.stageCount - 1] = layerOf(stages[i]);
                 ++last.stageCount;
                 continue;

@@ -34,6 +34,14 @@ std::vector<uint32_t> passLengths(const std::vector<Stage>& stages, bool merge =
 
 using Lengths = std::vector<uint32_t>;
 
+TEST(StagePasses, EqualDepthKeepsOutOfHolesOnlyWhereNoStageBeforeHasDrawn) {
+    Stage holes = opaque(), equal = detail();
+    holes.alphaTest = AlphaTest::GreaterEqual128;
+    equal.depthFunc = DepthFunc::Equal;
+    EXPECT_EQ(passLengths({holes, equal}), Lengths({2}));
+    EXPECT_EQ(passLengths({opaque(), holes, equal}), Lengths({1, 1, 1})) << "the first has the same depth in the holes";
+}
+
 TEST(StagePasses, BlendedStagesJoinTheOpaqueOneBeforeThem) {
     EXPECT_EQ(passLengths({opaque(), detail(), detail()}), Lengths({3}));
     EXPECT_EQ(passLengths({opaque(), detail(), detail()}, false), Lengths({1, 1, 1}));
