@@ -35,7 +35,11 @@ SlabRay makeSlabRay(vec3 origin, vec3 reciprocal, float reach)
 {
     vec3 along = -origin * reciprocal;
     vec3 error = (abs(origin) + reach) * abs(reciprocal) * kSlabError;
-    return SlabRay(reciprocal, along - error, along + error);
+    SlabRay ray;
+    ray.reciprocal = reciprocal;
+    ray.enter = along - error;
+    ray.leave = along + error;
+    return ray;
 }
 
 // Children of a node whose boxes the ray may meet in [tMin, tMax], tMin >= 0: a bit each. `first`: the one that it

@@ -26,8 +26,10 @@ struct BvhRay {
 BvhRay makeBvhRay(vec3 origin, vec3 direction, BVH_TABLE nodes)
 {
     vec3 reciprocal = slabReciprocal(direction);
-    return BvhRay(makeSlabRay(origin, reciprocal, loadBvhReach(nodes)),
-                  makeTriangleRay(origin, direction, reciprocal));
+    BvhRay ray;
+    ray.slabs = makeSlabRay(origin, reciprocal, loadBvhReach(nodes));
+    ray.triangle = makeTriangleRay(origin, direction, reciprocal);
+    return ray;
 }
 
 // The ray in the model space of an instance; the direction keeps its scale, so that t means the same in both spaces.
