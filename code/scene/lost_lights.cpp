@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "base/error.hpp"
+#include "formats/text_case.hpp"
 #include "scene/lights_build.hpp"
 
 namespace q3rt {
@@ -144,11 +145,13 @@ class Reader {
         }
     }
 
-    /// Keys mean the same in every entity: a worldspawn has no origin and a light no sun.
-    void readKey(std::string_view key, const std::string& value) {
+    /// Keys mean the same in every entity: a worldspawn has no origin and a light no sun. Their case means nothing, as
+    /// to MapEntity: whatever that finds was checked here.
+    void readKey(std::string_view written, const std::string& value) {
         const auto given = [&](size_t least, size_t most) { return parseNumbers(value, least, most, where()); };
+        const std::string key = toLowerAscii(written);
         const size_t space = key.find(' ');
-        const std::string_view keyword = key.substr(0, space);
+        const std::string_view keyword = std::string_view(key).substr(0, space);
         if (key == "_lightmap") {
             m_lights.lightmap = value;
         } else if (key == "_compensate") {
@@ -175,8 +178,8 @@ class Reader {
             if (space == std::string_view::npos) fail("no shader after " + std::string(keyword));
             const std::vector<float> v = given(4, 4);
             auto& list = keyword == "q3map_surfacelight" ? m_lights.surfaceLights : m_lights.skyLights;
-            list.push_back(
-                {std::string(key.substr(space + 1)), std::max(0.0f, v[0]), glm::max(vec3(v[1], v[2], v[3]), vec3(0))});
+            list.push_back({std::string(written.substr(space + 1)), std::max(0.0f, v[0]),
+                            glm::max(vec3(v[1], v[2], v[3]), vec3(0))});
         } else if (key == "q3map_sun") {
             const std::vector<float> v = given(6, 7);
             m_lights.suns.push_back({directionOfAngles(v[4], v[5]), glm::max(vec3(v[0], v[1], v[2]) * v[3], vec3(0)),

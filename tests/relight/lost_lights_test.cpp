@@ -83,6 +83,7 @@ TEST(LostLights, DamageIsNamedWithItsLine) {
         {"{\n\"classname\" \"light\"\n\"origin\" \"1 2 x\"\n}", "line 3", "'x' is not a number"},
         {"{\n\"classname\" \"light\"\n\"origin\" \"1 2\"\n}", "line 3", "3 numbers"},
         {"{ \"classname\" \"light\" }", "line 1", "without an origin"},
+        {"{ \"classname\" \"light\"\n\"Origin\" \"1 2 3e42\" }", "line 2", "'3e42' is not a number"},
         {"{\n\"a\" \"b\"\n", "line 3", "of line 1 does not end"},
         {"{\n\"light\" }", "line 2", "has no value"},
         {"{\n\n\"light\" \"nan\" }", "line 3", "'nan' is not a number"},
