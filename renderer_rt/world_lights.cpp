@@ -5,6 +5,8 @@
 
 #include "gpu/device.hpp"
 #include "renderer_rt/grid_light.hpp"
+#include "renderer_rt/node_starts.hpp"
+#include "renderer_rt/packed_grid.hpp"
 #include "shaders/shared/constants.h"
 
 namespace q3rt {
@@ -203,7 +205,12 @@ WorldLights::WorldLights(Device& device, Uploader& uploader, const World& world,
     m_rows = makeTable(device, uploader, tables.rows.rows, "light rows");
     m_entries = makeTable(device, uploader, tables.rows.entries, "light entries");
     m_nodes = makeTable(device, uploader, tables.nodes, "map nodes");
-    m_grid = makeTable(device, uploader, tables.grid, "light grid");
+    m_grid = makeTable(device, uploader, packGrid(tables.grid), "light grid");
+    const NodeStarts starts = findNodeStarts(tables.nodes, world.bounds.mins, world.bounds.maxs);
+    m_nodeStarts = makeTable(device, uploader, starts.starts, "starts in the map's tree");
+    m_nodeStartOrigin = starts.origin;
+    m_nodeStartCellQu = starts.cellQu;
+    m_nodeStartCounts = starts.counts;
     m_triangleCount = tables.triangles.size();
     m_pointCount = tables.points.size();
     m_rowEntryCount = tables.rows.entries.size();
@@ -246,6 +253,10 @@ void WorldLights::describe(RtFrame& frame) const {
     frame.lightEntries = m_entries.address();
     frame.pointLights = m_points.address();
     frame.nodes = m_nodes.address();
+    frame.nodeStarts = m_nodeStarts.address();
+    frame.nodeStartOrigin = m_nodeStartOrigin;
+    frame.nodeStartCellQu = m_nodeStartCellQu;
+    frame.nodeStartCounts = m_nodeStartCounts;
     frame.grid = m_grid.address();
     frame.triangleLightCount = static_cast<uint32_t>(m_triangleCount);
     frame.pointLightCount = static_cast<uint32_t>(m_pointCount);

@@ -13,6 +13,20 @@
 
 namespace q3rt {
 
+/// Irradiance = ambient + directed x max(0, cosine of normal and direction), luxel units.
+struct RtGridLight {
+    vec3 ambient, directed;
+};
+
+/// What the traced lights leave of a point of the map's light grid.
+struct RtGridCell {
+    RtGridLight surfaces; ///< of what has a lightmap, or baked colours
+    RtGridLight models;   ///< of what the engine lights by the grid
+    vec3 direction;       ///< unit, toward the light
+    uint32_t valid;       ///< 0: inside a wall
+    float sunSeen;        ///< share of the suns that shine here, [0, 1]: a guide for choosing lights
+};
+
 /// What is uploaded, as plain tables: pure, testable.
 struct LightTables {
     std::vector<RtTriangleLight> triangles; ///< of emitters, then of skies
@@ -73,9 +87,12 @@ class WorldLights {
     std::vector<RtTriangleLight> m_resting; ///< all triangle lights; kept if some move
     std::vector<MovingLight> m_ofMovers;
     std::unordered_map<int, std::vector<MovingLight>> m_deformed; ///< by world surface
-    Buffer m_triangles, m_points, m_rows, m_entries, m_nodes, m_grid;
+    Buffer m_triangles, m_points, m_rows, m_entries, m_nodes, m_nodeStarts, m_grid;
     size_t m_triangleCount = 0, m_pointCount = 0, m_rowEntryCount = 0;
     uint32_t m_clusterCount = 0;
+    vec3 m_nodeStartOrigin{0};
+    float m_nodeStartCellQu = 1;
+    ivec3 m_nodeStartCounts{0};
     vec3 m_gridOrigin{0}, m_gridCellSize{1};
     ivec3 m_gridCounts{0};
 };

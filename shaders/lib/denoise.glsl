@@ -4,27 +4,21 @@
 #ifndef Q3RT_LIB_DENOISE_GLSL
 #define Q3RT_LIB_DENOISE_GLSL
 #include "lib/color.glsl"
+#include "lib/octahedral.glsl"
 #include "shared/constants.h"
 
-// Unit normals in 32 bits (octahedral map: Cigolle et al. 2014, "A Survey of Efficient Representations for Independent
-// Unit Vectors"). packSnorm2x16 never gives -32768, which marks pixels that take no light or have no past.
+// Unit normals in 32 bits. packSnorm2x16 never gives -32768, which marks pixels that take no light or have no past.
 const uint kNoNormal = 0x80008000u;
 const uint kNoPast = 0x80008001u;
 
 uint packNormal(vec3 n)
 {
-    vec3 p = n / (abs(n.x) + abs(n.y) + abs(n.z));
-    vec2 side = vec2(p.x >= 0.0f ? 1.0f : -1.0f, p.y >= 0.0f ? 1.0f : -1.0f);
-    vec2 folded = vec2((1.0f - abs(p.y)) * side.x, (1.0f - abs(p.x)) * side.y);
-    return packSnorm2x16(p.z >= 0.0f ? vec2(p.x, p.y) : folded);
+    return packSnorm2x16(octahedralOf(n));
 }
 
 vec3 unpackNormal(uint bits)
 {
-    vec2 e = unpackSnorm2x16(bits);
-    float z = 1.0f - abs(e.x) - abs(e.y);
-    float fold = max(-z, 0.0f);
-    return normalize(vec3(e.x + (e.x >= 0.0f ? -fold : fold), e.y + (e.y >= 0.0f ? -fold : fold), z));
+    return fromOctahedral(unpackSnorm2x16(bits));
 }
 
 // A sample carried from a stratum of the previous frame to a pixel of a stratum of this one: 24 bits of the stratum's

@@ -20,20 +20,20 @@ GridSample sampleGrid(vec3 point, vec3 normal, uint lit)
     vec3 v = (point - rtFrame.gridOrigin) / rtFrame.gridCellSize;
     ivec3 cell = clamp(ivec3(floor(v)), ivec3(0), rtFrame.gridCounts - 1);
     vec3 f = clamp(v - vec3(cell), vec3(0.0), vec3(1.0));
+    uint taker = (lit & kLitModel) != 0u ? 1u : 0u;
     vec3 ambient = vec3(0.0), directed = vec3(0.0), direction = vec3(0.0);
     float total = 0.0;
-    for (int corner = 0; corner < 8; ++corner) {
+    // Unrolled and without a branch: the eight reads are under way together.
+    UNROLL for (int corner = 0; corner < 8; ++corner) {
         ivec3 step = ivec3(corner & 1, (corner >> 1) & 1, corner >> 2);
-        ivec3 at = cell + step;
-        if (any(greaterThanEqual(at, rtFrame.gridCounts)))
-            continue;
+        ivec3 at = min(cell + step, rtFrame.gridCounts - 1);
+        bool inside = at == cell + step;
         vec3 axisWeights = mix(1.0 - f, f, vec3(step));
         int cellIndex = at.x + rtFrame.gridCounts.x * (at.y + rtFrame.gridCounts.y * at.z);
-        RtGridCell sampled = loadGridCell(rtFrame.grid, uint(cellIndex));
-        float weight = axisWeights.x * axisWeights.y * axisWeights.z * float(sampled.valid);
-        bool model = (lit & kLitModel) != 0u;
-        ambient += (model ? sampled.models.ambient : sampled.surfaces.ambient) * weight;
-        directed += (model ? sampled.models.directed : sampled.surfaces.directed) * weight;
+        GridCellLight sampled = loadGridCell(rtFrame.grid, uint(cellIndex), taker);
+        float weight = sampled.valid && inside ? axisWeights.x * axisWeights.y * axisWeights.z : 0.0;
+        ambient += sampled.ambient * weight;
+        directed += sampled.directed * weight;
         direction += sampled.direction * weight;
         sunSeen += sampled.sunSeen * weight;
         total += weight;

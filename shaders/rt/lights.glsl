@@ -11,6 +11,8 @@
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightColorTable { vec3 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightTable { RtLight at[]; };
 
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer NodeStartTable { int at[]; };
+
 // Dimensions of a pixel's numbers. A choice takes kDimensionChoice + its number (rt_numRandomDL is at most 64); where
 // all lights are tried each takes kDimensionLight + its number. Layers: + 256 x their number.
 const uint kDimensionLens = 0u;
@@ -27,12 +29,22 @@ uvec4 ownRandomKey(RtPixel pixel)
     return uvec4(pixel.keyPixel & 0xffffu, pixel.keyPixel >> 16u, pixel.keyFrame, rtFrame.seed);
 }
 
+// Node of the map's tree, or leaf, below which a point lies.
+int nodeAround(vec3 point)
+{
+    ivec3 cell = ivec3(floor((point - rtFrame.nodeStartOrigin) / rtFrame.nodeStartCellQu));
+    if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, rtFrame.nodeStartCounts)))
+        return 0;
+    int index = cell.x + rtFrame.nodeStartCounts.x * (cell.y + rtFrame.nodeStartCounts.y * cell.z);
+    return NodeStartTable(rtFrame.nodeStarts).at[index];
+}
+
 // Cluster of a point off every surface, -1 outside all. A point on a plane belongs to its back, as in the map.
 int clusterOf(vec3 point)
 {
     if (rtFrame.clusterCount == 0u)
         return -1;
-    int node = 0;
+    int node = nodeAround(point);
     while (node >= 0) {
         RtNode at = loadNode(rtFrame.nodes, uint(node));
         node = dot(at.plane.normal, point) - at.plane.distance > 0.0 ? at.front : at.back;
@@ -41,12 +53,14 @@ int clusterOf(vec3 point)
     return cluster < int(rtFrame.clusterCount) ? cluster : -1;
 }
 
+RtLightRow everyLight() { return loadLightRow(rtFrame.lightRows, rtFrame.clusterCount * kNormalClassCount); }
+
 // Row of the light table for a point off every surface with a unit normal; a point outside all clusters has all lights.
 RtLightRow lightRowOf(vec3 point, vec3 normal)
 {
     int cluster = rtFrame.cullLights == 0u ? -1 : clusterOf(point);
     if (cluster < 0)
-        return loadLightRow(rtFrame.lightRows, rtFrame.clusterCount * kNormalClassCount);
+        return everyLight();
     uint first = uint(cluster) * kNormalClassCount;
     RtLightRow row = loadLightRow(rtFrame.lightRows, first);
     if (rtFrame.cullLights == 1u)

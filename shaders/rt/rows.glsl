@@ -3,6 +3,7 @@
 // the time.) The structures of shaders/shared have their rows in order.
 #ifndef Q3RT_RT_ROWS_GLSL
 #define Q3RT_RT_ROWS_GLSL
+#include "lib/grid_cell.glsl"
 #include "shared/rt_look.h"
 #include "shared/rt_motion.h"
 #include "shared/rt_shadow.h"
@@ -106,6 +107,12 @@ vec3 loadVertexPosition(SHARED_ADDRESS vertices, uint index)
     return vectorOf(RowTable(vertices).at[index * kVertexRows]);
 }
 
+vec2 loadVertexSt(SHARED_ADDRESS vertices, uint index)
+{
+    uvec4 row = RowTable(vertices).at[index * kVertexRows + 1u];
+    return uintBitsToFloat(uvec2(row.z, row.w));
+}
+
 const uint kTriangleLightRows = 5u;
 
 RtTriangleLight loadTriangleLight(SHARED_ADDRESS lights, uint index)
@@ -139,16 +146,10 @@ RtNode loadNode(SHARED_ADDRESS nodes, uint index)
     return RtNode(RtPlane(vectorOf(r0), uintBitsToFloat(r0.w)), int(r1.x), int(r1.y), uvec2(0u));
 }
 
-const uint kGridRows = 5u;
-
-RtGridCell loadGridCell(SHARED_ADDRESS grid, uint index)
+// A cell of the light grid as surfaces (0) or models (1) take it.
+GridCellLight loadGridCell(SHARED_ADDRESS grid, uint index, uint taker)
 {
-    uint first = index * kGridRows;
-    uvec4 r0 = RowTable(grid).at[first], r1 = RowTable(grid).at[first + 1u], r2 = RowTable(grid).at[first + 2u],
-          r3 = RowTable(grid).at[first + 3u], r4 = RowTable(grid).at[first + 4u];
-    return RtGridCell(RtGridLight(vectorOf(r0), uintBitsToFloat(uvec3(r0.w, r1.x, r1.y))),
-                      RtGridLight(uintBitsToFloat(uvec3(r1.z, r1.w, r2.x)), uintBitsToFloat(uvec3(r2.y, r2.z, r2.w))),
-                      vectorOf(r3), r3.w, uintBitsToFloat(r4.x), vec3(0.0));
+    return unpackGridCell(RowTable(grid).at[index * 2u + taker]);
 }
 
 #endif

@@ -59,7 +59,12 @@ struct RtSurface {
     uint drawOrder; // among blended and decal surfaces: later drawn is higher, at least 1; 0 for ordinary solids
     uint sky;       // index of RtSky if kSurfaceSky
     uint portal;    // 1 + index of RtPortal; 0: it leads nowhere
+    uint cover;     // where one texel tells whether a point is covered: kCover* and the texture; 0: it takes the stages
 };
+
+SHARED_CONST kCoverTest = 0x3u; // kTest*, never kTestNone
+SHARED_CONST kCoverClamped = 0x4u;
+SHARED_CONST kCoverTextureShift = 3u;
 
 // A mirror or portal: rows of the affine map from what is in front of it to what is seen in it.
 struct RtPortal {
@@ -84,22 +89,6 @@ struct RtNode {
     int front; // >= 0 a node; c < 0: cluster -2 - c (so -1 is "outside" as in the map)
     int back;
     SHARED_UVEC2 reserved;
-};
-
-// Irradiance = ambient + directed x max(0, cosine of normal and direction), luxel units.
-struct RtGridLight {
-    vec3 ambient;
-    vec3 directed;
-};
-
-// What the traced lights leave of a point of the map's light grid.
-struct RtGridCell {
-    RtGridLight surfaces; // of what has a lightmap, or baked colours
-    RtGridLight models;   // of what the engine lights by the grid
-    vec3 direction; // toward the light, as stored: not unit after interpolation
-    uint valid;     // 0: inside a wall
-    float sunSeen; // share of the suns that shine here, [0, 1]: a guide for choosing lights
-    vec3 reserved;
 };
 
 struct RtSky {
@@ -171,7 +160,8 @@ struct RtFrame {
     SHARED_ADDRESS lightColors; // vec3[]: what animated lights are multiplied by in this frame
     SHARED_ADDRESS lights; // RtLight[]: suns and the frame's dynamic lights, in no row
     SHARED_ADDRESS nodes;
-    SHARED_ADDRESS grid;
+    SHARED_ADDRESS nodeStarts; // int[], by cell of a grid: where the search among nodes begins
+    SHARED_ADDRESS grid; // uvec4[]: two rows a cell, as surfaces and as models take it (lib/grid_cell.glsl)
     SHARED_ADDRESS skies;
     SHARED_ADDRESS fogs;
     SHARED_ADDRESS noise; // RtNoise[]: kBlueNoiseSide rows
@@ -214,6 +204,9 @@ struct RtFrame {
     uint candidatesPerChoice;
     float ambient; // rt_ambient
     uint layerOrderCount; // highest drawOrder of the frame
+    vec3 nodeStartOrigin;
+    float nodeStartCellQu;
+    ivec3 nodeStartCounts; // 0: there are none
     vec3 gridOrigin;
     vec3 gridCellSize;
     uint skyCount;
@@ -231,6 +224,7 @@ struct RtFrame {
     uint curve;       // kCurve*
     float curveWhite; // radiance that the curve shows as full white
     float inverseError; // of the back end's transform of rays into instances, see lib/offset.glsl
+    uint reserved;
 };
 
 struct RtPush {

@@ -78,6 +78,7 @@ struct ColorTable {
 #define RowTable(address) TABLE(RowTable, address)
 #define ColorTable(address) TABLE(ColorTable, address)
 #define LightColorTable(address) TABLE(LightColorTable, address)
+#define NodeStartTable(address) TABLE(NodeStartTable, address)
 #define LightTable(address) TABLE(LightTable, address)
 #define vec4 Numbers4
 #include "rt/direct.glsl"

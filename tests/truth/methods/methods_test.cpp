@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "map_lights.hpp"
+#include "renderer_rt/packed_grid.hpp"
 #include "shaders/shared/constants.h"
 #include "support/game_data.hpp"
 #include "tracer/choice_number.hpp"
@@ -221,7 +222,8 @@ dvec3 PointMethods::enumerateChoices(uint cullLights, uint candidates, float sun
     cell.sunSeen = sunSeen;
     m_inputs.frame.candidatesPerChoice = candidates;
     m_inputs.frame.flags |= kFrameGrid;
-    m_inputs.frame.grid = reinterpret_cast<uint64_t>(&cell);
+    const std::vector<glm::uvec4> packed = packGrid({cell});
+    m_inputs.frame.grid = reinterpret_cast<uint64_t>(packed.data());
     m_inputs.frame.gridOrigin = shadowOriginOf(m_pixel);
     m_inputs.frame.gridCellSize = vec3(1.0f);
     m_inputs.frame.gridCounts = ivec3(1);

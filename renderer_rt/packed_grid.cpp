@@ -1,0 +1,30 @@
+#include "renderer_rt/packed_grid.hpp"
+
+namespace q3rt {
+
+namespace {
+
+using namespace glm;
+using glm::vec2;
+using glm::vec3;
+using uint = uint32_t;
+
+#include "lib/grid_cell.glsl"
+
+uvec4 pack(const RtGridCell& cell, const RtGridLight& light) {
+    return packGridCell({light.ambient, light.directed, cell.direction, cell.sunSeen, cell.valid != 0});
+}
+
+} // namespace
+
+std::vector<glm::uvec4> packGrid(const std::vector<RtGridCell>& grid) {
+    std::vector<glm::uvec4> rows;
+    rows.reserve(2 * grid.size());
+    for (const RtGridCell& cell : grid) {
+        rows.push_back(pack(cell, cell.surfaces));
+        rows.push_back(pack(cell, cell.models));
+    }
+    return rows;
+}
+
+} // namespace q3rt
