@@ -34,9 +34,9 @@ Backend chooseBackend(std::string_view wanted, const Capabilities& can) {
     throw UsageError("rt_backend \"" + std::string(wanted) + "\" is unknown: use auto, pipeline, query or compute");
 }
 
-std::vector<uint32_t> traversalConstants(const Capabilities& can) {
+std::vector<uint32_t> traversalConstants(const Capabilities& can, bool stagedCover) {
     const bool descends = !can.software;
-    return {descends ? 1u : 0u};
+    return {descends ? 1u : 0u, stagedCover ? 1u : 0u};
 }
 
 } // namespace q3rt

@@ -25,7 +25,8 @@ bool isAvailable(Backend backend, const Capabilities& capabilities);
 /// Do the driver's acceleration structures hold the scene?
 inline bool usesStructures(Backend backend) { return backend != Backend::Compute; }
 
-/// Specialisation of shaders/trace/trace_compute.glsl for a device.
-std::vector<uint32_t> traversalConstants(const Capabilities& can);
+/// Specialisation of shaders/trace/trace_compute.glsl for a device, and for scenes with or without surfaces whose holes
+/// take their stages to tell.
+std::vector<uint32_t> traversalConstants(const Capabilities& can, bool stagedCover);
 
 } // namespace q3rt

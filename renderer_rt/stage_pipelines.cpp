@@ -46,6 +46,11 @@ StageCode codeOf(TraceStage stage) {
     return {"direct", shaders::rt_direct_rgen, shaders::rt_direct_query, shaders::rt_direct_compute};
 }
 
+/// Does it search and little else? Then what a material's stages need is most of its registers.
+bool onlySearches(TraceStage stage) {
+    return stage == TraceStage::Look || stage == TraceStage::Direct || stage == TraceStage::Shadows;
+}
+
 template <typename Stage>
 size_t indexOf(Stage stage) {
     return static_cast<size_t>(stage);
@@ -82,8 +87,11 @@ void StagePipelines::createTraceStage(Device& device, TraceStage stage) {
     const StageCode code = codeOf(stage);
     if (m_backend != Backend::Pipeline) {
         ShaderStage shader{code.query, {}};
-        if (m_backend == Backend::Compute) shader = {code.compute, traversalConstants(device.capabilities())};
+        if (m_backend == Backend::Compute) shader = {code.compute, traversalConstants(device.capabilities(), true)};
         m_computeStages[indexOf(stage)] = ComputePipeline(device, {code.name, shader, m_interface});
+        if (m_backend != Backend::Compute || !onlySearches(stage)) return;
+        shader.constants = traversalConstants(device.capabilities(), false);
+        m_leanStages[indexOf(stage)] = ComputePipeline(device, {code.name, shader, m_interface});
         return;
     }
     RayTracingPipelineInfo info;
@@ -110,6 +118,11 @@ void StagePipelines::bindInput(VkCommandBuffer commands, const Pipeline& pipelin
     pipeline.push(commands, input.push);
 }
 
+const ComputePipeline& StagePipelines::computeStage(TraceStage stage, bool stagedCover) const {
+    const bool lean = m_backend == Backend::Compute && onlySearches(stage) && !stagedCover;
+    return (lean ? m_leanStages : m_computeStages)[indexOf(stage)];
+}
+
 void StagePipelines::dispatch(VkCommandBuffer commands, TraceStage stage, const StageInput& input) const {
     if (m_backend == Backend::Pipeline) {
         const RayTracingPipeline& pipeline = m_tracePipelines[indexOf(stage)];
@@ -117,7 +130,7 @@ void StagePipelines::dispatch(VkCommandBuffer commands, TraceStage stage, const 
         pipeline.trace(commands, input.extent.width, input.extent.height);
         return;
     }
-    const ComputePipeline& pipeline = m_computeStages[indexOf(stage)];
+    const ComputePipeline& pipeline = computeStage(stage, input.stagedCover);
     bindInput(commands, pipeline, input);
     pipeline.dispatchOver(commands, input.extent);
 }
@@ -140,7 +153,7 @@ void StagePipelines::warm(VkCommandBuffer commands, const StageInput& input) con
     const VkDependencyInfo dependency{
         .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &order};
     const auto run = [&](auto stage, VkExtent2D extent) {
-        dispatch(commands, stage, {input.textures, input.structures, input.push, extent});
+        dispatch(commands, stage, {input.textures, input.structures, input.push, extent, input.stagedCover});
         vkCmdPipelineBarrier2KHR(commands, &dependency);
     };
     run(TraceStage::Look, input.extent);

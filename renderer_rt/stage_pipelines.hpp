@@ -26,6 +26,7 @@ struct StageInput {
     VkDescriptorSet structures = VK_NULL_HANDLE; ///< null: the back end has none
     RtPush push{};
     VkExtent2D extent{};
+    bool stagedCover = true; ///< some surface's holes take its stages to tell (RtSurface::cover)
 };
 
 class StagePipelines {
@@ -36,7 +37,7 @@ class StagePipelines {
     bool hasPlain() const { return m_hasPlain; }
     void dispatch(VkCommandBuffer commands, TraceStage stage, const StageInput& input) const;
     void dispatch(VkCommandBuffer commands, PointStage stage, const StageInput& input) const;
-    /// Runs each stage once, so that the driver compiles them now.
+    /// Runs each stage once as such an input takes it, so that the driver compiles them now.
     void warm(VkCommandBuffer commands, const StageInput& input) const;
     const DescriptorLayout& structureLayout() const { return m_structureLayout; }
     Backend backend() const { return m_backend; }
@@ -48,6 +49,7 @@ class StagePipelines {
   private:
     void bindInput(VkCommandBuffer commands, const Pipeline& pipeline, const StageInput& input) const;
     void createTraceStage(Device& device, TraceStage stage);
+    const ComputePipeline& computeStage(TraceStage stage, bool stagedCover) const;
 
     Backend m_backend;
     DescriptorLayout m_structureLayout;
@@ -55,6 +57,8 @@ class StagePipelines {
     bool m_hasPlain = false;
     std::array<RayTracingPipeline, kTraceStageCount> m_tracePipelines;
     std::array<ComputePipeline, kTraceStageCount> m_computeStages;
+    /// Back end `compute`: the stages that only search, for scenes without staged cover.
+    std::array<ComputePipeline, kTraceStageCount> m_leanStages;
     std::array<ComputePipeline, kPointStageCount> m_pointStages;
 };
 

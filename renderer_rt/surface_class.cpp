@@ -64,6 +64,21 @@ uint32_t surfaceFlags(const Material& material, SurfaceClass surfaceClass) {
     return flags;
 }
 
+uint32_t coverOf(std::span<const StageState> stages) {
+    const StageState* only = nullptr;
+    for (const StageState& stage : stages) {
+        if (stage.blended != 0 || stage.depthEqual != 0) continue;
+        if (only || stage.alphaTest == kTestNone) return 0;
+        only = &stage;
+    }
+    if (!only) return 0;
+    const TextureUnitState& unit = only->unit[0];
+    const bool isOneTexel = only->combine == kCombineSingle && only->alphaGen == kAlphaConstant &&
+                            only->color.a == 1.0f && unit.coord == kCoordTexture && unit.modCount == 0;
+    if (!isOneTexel || unit.texture >> (32 - kCoverTextureShift) != 0) return 0;
+    return unit.texture << kCoverTextureShift | (unit.clamped != 0 ? kCoverClamped : 0) | only->alphaTest;
+}
+
 uint8_t instanceMask(SurfaceClass surfaceClass, const Visibility& visibility) {
     // To light a sky is what the map compilers take it for: a wall that shines.
     if (surfaceClass == SurfaceClass::Sky) return kMaskSky | kMaskShadow;

@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "scene/material.hpp"
+#include "shaders/shared/stage.h"
 
 namespace q3rt {
 
@@ -22,6 +24,9 @@ std::optional<SurfaceClass> classifySurface(const Material& material);
 
 /// kSurface* bits of a material for the surface table.
 uint32_t surfaceFlags(const Material& material, SurfaceClass surfaceClass);
+
+/// RtSurface::cover of a tested surface's stages.
+uint32_t coverOf(std::span<const StageState> stages);
 
 /// Must any-hit code run on hits of this class?
 inline bool isOpaqueClass(SurfaceClass c) {

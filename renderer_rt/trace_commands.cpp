@@ -139,9 +139,12 @@ RunTime TraceRenderer::runStill(VkExtent2D extent, bool filters) {
                 arena.make(m_pipelines->structureLayout(), {bindAccelerationStructure(0, view.top->handle())});
         input.push = {view.frameSlice.address};
         input.extent = extent;
+        input.stagedCover = view.stagedCover;
         m_pipelines->warm(commands, input);
         if (filters && buffers.denoiser) m_denoisePipelines->warm(commands);
         if (!filters) return;
+        input.stagedCover = !view.stagedCover;
+        m_pipelines->warm(commands, input);
         context().target().transition(commands, storageWritten);
         m_pictures->warm(commands,
                          arena.make(m_pictures->targetLayout(), {bindStorageImage(0, context().target().view())}));

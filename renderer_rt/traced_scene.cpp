@@ -237,6 +237,7 @@ TracedView TracedScene::prepare(const ViewGeometry& geometry, std::span<const Sc
         if (!moved.empty()) frame.triangleLights = send(moved);
         frame.lightColors = send(m_lights->colorsAt(geometry.entities[0].stage.shaderTimeSeconds));
     }
+    view.stagedCover = m_tables.hasStagedCover;
     if (m_tables.hasLayers) frame.flags |= kFrameLayers;
     if (m_tables.hasNear) frame.flags |= kFrameNearEntities;
     if (m_tables.skies.size() > 1) frame.flags |= kFrameSkySurfaces;

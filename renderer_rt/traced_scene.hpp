@@ -23,6 +23,7 @@ struct TracedView {
         TriangleGeometry geometry;
     };
     std::vector<Build> builds;
+    bool stagedCover = false; ///< some surface's holes take its stages to tell
     uint32_t movingTriangleCount = 0;
     ClassCounts counts{};
 };

@@ -44,7 +44,7 @@ void ViewTables::clear() {
     sources.clear();
     skies.clear();
     portals.clear();
-    hasLayers = hasNear = false;
+    hasLayers = hasNear = hasStagedCover = false;
     layerOrderCount = 0;
     counts = {};
 }
@@ -101,6 +101,10 @@ RtSurface ViewTableBuilder::makeSurface(MaterialId id, SurfaceClass surfaceClass
         const StageRange stages = m_stages.evaluate(m_materials.drawnId(id), inputs);
         surface.firstStage = stages.first;
         surface.stageCount = stages.count;
+        if (surfaceClass == SurfaceClass::Tested && (surface.flags & kSurfaceTested) != 0) {
+            surface.cover = coverOf(std::span(m_stages.states()).subspan(stages.first, stages.count));
+            out.hasStagedCover |= surface.cover == 0;
+        }
     }
     if (surfaceClass == SurfaceClass::Layer)
         m_layers.emplace_back(m_materials.get(id).sortRank, static_cast<uint32_t>(out.surfaces.size()));

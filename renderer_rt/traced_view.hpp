@@ -19,7 +19,7 @@ struct DynamicPart {
     SurfaceClass surfaceClass = SurfaceClass::Solid;
     bool isPoly = false; ///< scene polys are apart: they come and go, the world's deformed surfaces stay
     bool castsShadow = true;
-    std::vector<uint32_t> surfaces; ///< in ViewGeometry::surfaces
+    std::vector<uint32_t> surfaces;             ///< in ViewGeometry::surfaces
     uint32_t firstIndex = 0, triangleCount = 0; ///< in ViewTables::indices; relative to firstVertex
     uint32_t firstVertex = 0, vertexCount = 0;  ///< in ViewGeometry::vertices
 };
@@ -42,7 +42,7 @@ struct ViewTables {
     std::vector<Source> sources;
     std::vector<RtSky> skies;
     std::vector<RtPortal> portals;
-    bool hasLayers = false, hasNear = false;
+    bool hasLayers = false, hasNear = false, hasStagedCover = false;
     uint32_t layerOrderCount = 0;
     ClassCounts counts{};
     void clear();

@@ -13,6 +13,7 @@ inline StageInput makeStageInput(const PassContext& pass, const ViewWork& work) 
             pass.makeSet(work.pipelines.structureLayout(), {bindAccelerationStructure(0, work.view.top->handle())});
     input.push = {work.view.frameSlice.address};
     input.extent = work.extent;
+    input.stagedCover = work.view.stagedCover;
     return input;
 }
 

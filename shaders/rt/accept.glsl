@@ -3,6 +3,7 @@
 #define Q3RT_RT_ACCEPT_GLSL
 #include "rt/material.glsl"
 #include "rt/work.glsl"
+#include "trace/trace.glsl"
 
 // Geometric facts of a candidate triangle, without its attributes.
 struct Candidate {
@@ -31,15 +32,34 @@ bool showsFrom(RtSurface surface, vec3 facing, vec3 direction)
            !((surface.flags & kSurfaceCullFront) != 0u && side <= 0.0);
 }
 
+// Nearly all alpha-tested surfaces are one texture over the texture coordinates of their vertices.
+uint coverAt(uint instance, uint triangle, vec2 barycentric)
+{
+    countWork(kWorkAnyHit);
+    SceneTriangle found = findTriangle(instance, triangle);
+    uint flags = SurfaceTable(rtFrame.surfaces).at[found.surface].flags;
+    uint cover = SurfaceTable(rtFrame.surfaces).at[found.surface].cover;
+    if ((flags & kSurfaceTested) == 0u)
+        return kCoverSolid;
+    if (cover == 0u)
+        return kCoverUnsure;
+    vec2 st = interpolate(loadVertexSt(found.vertices, found.vertex.x), loadVertexSt(found.vertices, found.vertex.y),
+                          loadVertexSt(found.vertices, found.vertex.z), barycentric);
+    if ((cover & kCoverClamped) == 0u)
+        st = wrapCoordinates(st);
+    float alpha = textureLod(textures[nonuniformEXT(cover >> kCoverTextureShift)], st, 0.0).a;
+    return passesAlphaTest(cover & kCoverTest, alpha) ? kCoverSolid : kCoverHole;
+}
+
 // Rays that look (unit directions) respect the sides of a surface; shadow rays, whose direction spans the whole way to
 // the light, are stopped from both sides, as by the solid class.
 bool acceptHit(uint instance, uint triangle, vec2 barycentric, float t, vec3 direction)
 {
-    countWork(kWorkAnyHit);
-    Candidate candidate = findCandidate(instance, triangle);
-    if ((candidate.surface.flags & kSurfaceTested) == 0u)
-        return true;
-    return isCovered(candidate.triangle, candidate.surface, barycentric);
+    uint cover = coverAt(instance, triangle, barycentric);
+    if (cover != kCoverUnsure)
+        return cover == kCoverSolid;
+    SceneTriangle found = findTriangle(instance, triangle);
+    return isCovered(found, SurfaceTable(rtFrame.surfaces).at[found.surface], barycentric);
 }
 
 // Where a layer stands along the ray in drawing order. Layers in one plane (marks, decals, coats of paint) come at the

@@ -7,22 +7,33 @@
 #include "rt/shadow.glsl"
 #include "rt/work.glsl"
 
-// Every light with its own shadow ray: rt_numRandomDL 0.
-vec3 sumAllLights(ShadingPoint point, uvec4 key)
+// Light number i of a row, or of those in no row after them.
+LightSample sampleNth(RtLightRow row, uint i, ShadingPoint point, uvec4 key)
 {
-    RtLightRow row = lightRowOf(point.origin, point.normal);
-    vec3 sum = vec3(0.0);
-    countWork(kWorkLight, row.count + rtFrame.lightCount);
-    for (uint i = 0u; i < row.count; ++i) {
+    if (i < row.count) {
         uint light = loadLightEntry(rtFrame.lightEntries, row.first + i).light;
-        LightSample lit = sampleRowLight(light, point, sampleNumbers(key, kDimensionLight + light).xy);
-        sum += shadowed(point.origin, lit);
+        return sampleRowLight(light, point, sampleNumbers(key, kDimensionLight + light).xy);
     }
-    uint dimension = kDimensionLight + rtFrame.triangleLightCount + rtFrame.pointLightCount;
-    for (uint i = 0u; i < rtFrame.lightCount; ++i) {
-        RtLight light = LightTable(rtFrame.lights).at[i];
-        LightSample lit = sampleOther(light, point, sampleNumbers(key, dimension + i).xy, row.seesSky != 0u);
-        sum += shadowed(point.origin, lit);
+    uint other = i - row.count;
+    uint number = rtFrame.triangleLightCount + rtFrame.pointLightCount + other;
+    return sampleOther(LightTable(rtFrame.lights).at[other], point, sampleNumbers(key, kDimensionLight + number).xy,
+                       row.seesSky != 0u);
+}
+
+// Every light with its own shadow ray: rt_numRandomDL 0. The pixel is read anew for each: what is not carried through
+// the search leaves its registers to more rays.
+vec3 sumAllLights(uint index, bool behind)
+{
+    ShadingPoint first = sideOf(loadPixel(rtFrame.pixels, index), behind);
+    RtLightRow row = lightRowOf(first.origin, first.normal);
+    uint count = row.count + rtFrame.lightCount;
+    countWork(kWorkLight, count);
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < count; ++i) {
+        // The sum is never negative; a compiler does not know, and reads again.
+        RtPixel pixel = loadPixel(rtFrame.pixels, sum.x < 0.0 ? 0u : index);
+        ShadingPoint point = sideOf(pixel, behind);
+        sum += shadowed(point.origin, sampleNth(row, i, point, ownRandomKey(pixel)));
     }
     return sum;
 }
@@ -47,7 +58,7 @@ void directPixel(uvec2 pixelPosition)
         GridSample grid = gridAt(pixel);
         if (rtFrame.lightsPerPixel == 0u) {
             for (uint side = 0u; side < sideCount(pixel); ++side)
-                irradiance += sumAllLights(sideOf(pixel, side > 0u), ownRandomKey(pixel));
+                irradiance += sumAllLights(index, side > 0u);
         } else {
             irradiance = sampleLights(pixel, grid.sunSeen, ownRandomKey(pixel));
         }

@@ -16,72 +16,98 @@ struct MaterialColor {
 vec3 shadingColor(vec3 color) { return (rtFrame.flags & kFrameLinear) != 0u ? linearFromSrgb(color) : color; }
 vec4 shadingColor(vec4 color) { return vec4(shadingColor(color.rgb), color.a); }
 
-// Stages are read where they are needed: a copy of one would hold its eight tcMods, few of which exist.
-#define stageAt(stage) StageTable(rtFrame.stages).at[stage]
+// Stages are read where they are needed, in rows of 16 bytes: a copy of one would hold its eight tcMods, few of which
+// exist.
+const uint kStageRows = 26u;
+const uint kUnitRows = 11u;
+const uint kModRows = 2u;
 
-vec2 generateUnit(uint stage, uint unit, VertexIn vertex, vec3 eye)
+uvec4 stageRow(uint stage, uint row) { return RowTable(rtFrame.stages).at[stage * kStageRows + row]; }
+
+// What its texture coordinates take of a unit, but for its mods.
+struct UnitState {
+    uint firstRow;
+    uint texture;
+    uint coord; // kCoord*
+    vec3 vectorS;
+    vec3 vectorT;
+    uint modCount;
+    bool clamped;
+};
+
+UnitState loadUnit(uint stage, uint unit)
+{
+    uint first = unit * kUnitRows + kMaxTexMods * kModRows;
+    uvec4 s = stageRow(stage, first), t = stageRow(stage, first + 1u), rest = stageRow(stage, first + 2u);
+    return UnitState(stage * kStageRows + unit * kUnitRows, s.w, t.w, vectorOf(s), vectorOf(t), rest.x, rest.z != 0u);
+}
+
+TexModState loadMod(UnitState unit, uint number)
+{
+    uvec4 matrix = RowTable(rtFrame.stages).at[unit.firstRow + number * kModRows],
+          rest = RowTable(rtFrame.stages).at[unit.firstRow + number * kModRows + 1u];
+    return TexModState(uintBitsToFloat(matrix), uintBitsToFloat(rest.xy), rest.z, 0u);
+}
+
+vec2 generateUnit(UnitState unit, VertexIn vertex, vec3 eye)
 {
     TextureUnitState generator; // what generateCoordinates reads of it
-    generator.coord = stageAt(stage).unit[unit].coord;
-    if (generator.coord == kCoordVector) {
-        generator.vectorS = stageAt(stage).unit[unit].vectorS;
-        generator.vectorT = stageAt(stage).unit[unit].vectorT;
-    }
+    generator.coord = unit.coord;
+    generator.vectorS = unit.vectorS;
+    generator.vectorT = unit.vectorT;
     return generateCoordinates(generator, vertex, eye);
 }
 
 // Repeating textures take coordinates in [0, 1).
-vec2 wrapUnit(uint stage, uint unit, vec2 st)
-{
-    return stageAt(stage).unit[unit].clamped != 0u ? st : wrapCoordinates(st);
-}
+vec2 wrapUnit(UnitState unit, vec2 st) { return unit.clamped ? st : wrapCoordinates(st); }
 
 // A unit's texel with the footprint of a pixel: the coordinates of the neighbours' points go through the same chain.
-vec4 sampleFiltered(uint stage, uint unit, VertexIn vertex, VertexIn vertexX, VertexIn vertexY, vec3 eye)
+vec4 sampleFiltered(uint stage, uint number, VertexIn vertex, VertexIn vertexX, VertexIn vertexY, vec3 eye)
 {
-    vec2 st = generateUnit(stage, unit, vertex, eye);
-    vec2 stX = generateUnit(stage, unit, vertexX, eye);
-    vec2 stY = generateUnit(stage, unit, vertexY, eye);
-    uint count = stageAt(stage).unit[unit].modCount;
-    for (uint i = 0u; i < count; ++i) {
-        TexModState mod = stageAt(stage).unit[unit].mods[i];
+    UnitState unit = loadUnit(stage, number);
+    vec2 st = generateUnit(unit, vertex, eye);
+    vec2 stX = generateUnit(unit, vertexX, eye);
+    vec2 stY = generateUnit(unit, vertexY, eye);
+    for (uint i = 0u; i < unit.modCount; ++i) {
+        TexModState mod = loadMod(unit, i);
         st = applyTexMod(st, mod, vertex.position);
         stX = applyTexMod(stX, mod, vertexX.position);
         stY = applyTexMod(stY, mod, vertexY.position);
     }
-    return textureGrad(textures[nonuniformEXT(stageAt(stage).unit[unit].texture)], wrapUnit(stage, unit, st), stX - st,
-                       stY - st);
+    return textureGrad(textures[nonuniformEXT(unit.texture)], wrapUnit(unit, st), stX - st, stY - st);
 }
 
 // A unit's texel at the finest resolution.
-vec4 sampleFinest(uint stage, uint unit, VertexIn vertex, vec3 eye)
+vec4 sampleFinest(uint stage, uint number, VertexIn vertex, vec3 eye)
 {
-    vec2 st = generateUnit(stage, unit, vertex, eye);
-    uint count = stageAt(stage).unit[unit].modCount;
-    for (uint i = 0u; i < count; ++i)
-        st = applyTexMod(st, stageAt(stage).unit[unit].mods[i], vertex.position);
-    return textureLod(textures[nonuniformEXT(stageAt(stage).unit[unit].texture)], wrapUnit(stage, unit, st), 0.0);
+    UnitState unit = loadUnit(stage, number);
+    vec2 st = generateUnit(unit, vertex, eye);
+    for (uint i = 0u; i < unit.modCount; ++i)
+        st = applyTexMod(st, loadMod(unit, i), vertex.position);
+    return textureLod(textures[nonuniformEXT(unit.texture)], wrapUnit(unit, st), 0.0);
 }
 
 // All but the texture units, of which the blend needs to know only whether the first is baked light.
 StageState loadStage(uint stage)
 {
-    StageTable stages = StageTable(rtFrame.stages);
+    uvec4 generators = stageRow(stage, 2u * kUnitRows + 1u), blend = stageRow(stage, 2u * kUnitRows + 2u),
+          rest = stageRow(stage, 2u * kUnitRows + 3u);
     StageState result;
-    result.color = stages.at[stage].color;
-    result.rgbGen = stages.at[stage].rgbGen;
-    result.alphaGen = stages.at[stage].alphaGen;
-    result.combine = stages.at[stage].combine;
-    result.bakedLight = stages.at[stage].bakedLight;
-    result.sourceBlend = stages.at[stage].sourceBlend;
-    result.destinationBlend = stages.at[stage].destinationBlend;
-    result.blended = stages.at[stage].blended;
-    result.alphaTest = stages.at[stage].alphaTest;
-    result.fogFade = stages.at[stage].fogFade;
-    result.portalRange = stages.at[stage].portalRange;
-    result.depthEqual = stages.at[stage].depthEqual;
-    result.depthWrite = stages.at[stage].depthWrite;
-    result.unit[0].isLightmap = stages.at[stage].unit[0].isLightmap;
+    result.color = uintBitsToFloat(stageRow(stage, 2u * kUnitRows));
+    result.rgbGen = generators.x;
+    result.alphaGen = generators.y;
+    result.combine = generators.z;
+    result.bakedLight = generators.w;
+    result.sourceBlend = blend.x;
+    result.destinationBlend = blend.y;
+    result.blended = blend.z;
+    result.alphaTest = blend.w;
+    result.fogFade = rest.x;
+    result.portalRange = uintBitsToFloat(rest.y);
+    result.depthEqual = rest.z;
+    result.depthWrite = rest.w;
+    result.unit[0].isLightmap = stageRow(stage, kUnitRows - 1u).y;
+    result.unit[0].coord = stageRow(stage, kUnitRows - 2u).w;
     return result;
 }
 
@@ -112,7 +138,7 @@ AffineColor addStages(AffineColor color, uint first, uint count, VertexIn vertex
 {
     for (uint i = 0u; i < count; ++i) {
         StageState stage = loadStage(first + i);
-        if (reflects && stageAt(first + i).unit[0].coord == kCoordEnvironment)
+        if (reflects && stage.unit[0].coord == kCoordEnvironment)
             continue;
         bool bakedCounts = stage.bakedLight != kBakedLightmap || multipliesLight(stage, color);
         vec4 texel0 = vec4(1.0), texel1 = vec4(1.0);

@@ -6,8 +6,10 @@
 #endif
 #include "rt/extensions.glsl"
 #include "rt/scene.glsl"
+#include "trace/trace.glsl"
 
 // Whatever is not blended is solid.
+uint coverAt(uint instance, uint triangle, vec2 barycentric) { return kCoverSolid; }
 bool acceptHit(uint instance, uint triangle, vec2 barycentric, float t, vec3 direction) { return true; }
 float layerDistance(uint instance, uint triangle, vec2 barycentric, float t, vec3 origin, vec3 direction)
 {

@@ -1,5 +1,6 @@
 // Plain shading of one pixel: the closest solid, white and opaque whatever it is made of, in the light of one ray
-// toward one light that may shine on it. Two searches and what they ask for: what tracing costs by itself.
+// toward one of the map's lights. Two searches and what they ask for: what tracing costs by itself. Pixels of a block
+// take the same light: their rays go the same way.
 #ifndef Q3RT_RT_PLAIN_GLSL
 #define Q3RT_RT_PLAIN_GLSL
 #include "lib/ray.glsl"
@@ -29,10 +30,12 @@ ShadingPoint findPlainPoint(Hit hit, vec3 direction)
     return point;
 }
 
-// One of the row's lights, or one of those in no row, as if it alone gave the light of all.
+const uint kPlainBlock = 8u; // pixels a side
+
+// One of all lights, wherever they are, as if it alone gave the light of all.
 LightSample drawPlainLight(ShadingPoint point, uvec4 bits)
 {
-    RtLightRow row = lightRowOf(point.origin, point.normal);
+    RtLightRow row = everyLight();
     uint kinds = rtFrame.lightCount + (row.facing > 0u ? 1u : 0u);
     vec4 random = unitFloats(bits);
     uint kind = min(uint(random.z * float(kinds)), max(kinds, 1u) - 1u);
@@ -57,7 +60,7 @@ void plainPixel(uvec2 pixelPosition)
     vec3 light = vec3(0.0);
     if (hit.t > 0.0) {
         ShadingPoint point = findPlainPoint(hit, direction);
-        LightSample lit = drawPlainLight(point, randomBits(randomKey(pixelPosition), kDimensionChoice));
+        LightSample lit = drawPlainLight(point, randomBits(randomKey(pixelPosition / kPlainBlock), kDimensionChoice));
         light = shadowed(point.origin, lit) / kWhiteIrradiance;
     }
     vec3 shown = clampKeepingHue(light * (rtFrame.lightScale * rtFrame.exposure));

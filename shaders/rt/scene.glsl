@@ -13,7 +13,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Ins
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SurfaceTable { RtSurface at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer EntityTable { RtEntity at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer NumberTable { uint at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer StageTable { StageState at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer SkyTable { RtSky at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FogTable { RtFog at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer ColorTable { vec4 at[]; };

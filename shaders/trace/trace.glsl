@@ -13,7 +13,9 @@
 //     a solid in (0, tMax), from either side: the first one, or any, which takes less time
 // and asks the stage for
 //   bool acceptHit(uint instance, uint triangle, vec2 barycentric, float t, vec3 direction)
-//     of every non-opaque triangle, in any order and perhaps more than once: is there something at this point?
+//     of non-opaque triangles, in any order and perhaps more than once: is there something at this point?
+//   uint coverAt(uint instance, uint triangle, vec2 barycentric)
+//     the same as far as it can be told with few registers: kCover*
 //   float layerDistance(uint instance, uint triangle, vec2 barycentric, float t, vec3 origin, vec3 direction)
 //     where a blended surface stands in the drawing order along the ray; negative: it doesn't show.
 //   float layerReach(float t, vec3 origin)
@@ -22,6 +24,10 @@
 #ifndef Q3RT_TRACE_GLSL
 #define Q3RT_TRACE_GLSL
 #include "shared/types.h"
+
+const uint kCoverHole = 0u;
+const uint kCoverSolid = 1u;
+const uint kCoverUnsure = 2u; // acceptHit() knows
 
 struct Hit {
     float t; // 0: nothing was hit

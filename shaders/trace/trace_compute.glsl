@@ -15,6 +15,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Bv
 // What a GPU gains by it, 7 to 14 %, a software device loses (docs/tracing.md).
 layout(constant_id = 0) const bool kBvhDescends = true;
 
+// Are there surfaces whose holes take their stages to tell?
+layout(constant_id = 1) const bool kBvhStagedCover = true;
+
 const uint kBvhTriangleWords = 3u * kBvhCornerWords;
 
 vec4 loadBvhPlane(uvec2 nodes, uint index, uint plane)
@@ -37,7 +40,13 @@ struct BvhQuery {
     vec3 origin;
     vec3 direction;
     Sight sight;
+    bool unsure;     // what was found may be a hole
+    LayerKey passed; // the last of those that was one
 };
+
+// Neighbouring numbers of a positive one.
+float nextAbove(float x) { return uintBitsToFloat(floatBitsToUint(x) + 1u); }
+float nextBelow(float x) { return uintBitsToFloat(floatBitsToUint(x) - 1u); }
 
 // Instances are stored in the leaf order of the scene tree.
 BvhInstance loadBvhInstance(inout BvhQuery query, uint item)
@@ -62,16 +71,25 @@ float onBvhTriangle(inout BvhQuery query, uint item, uvec2 triangles, uint index
     }
     if (query.looks && (flags & kBvhTriangleCullBack) != 0u && !test.frontFace)
         return tMax;
-    // The search goes on a little behind the solid where layers are looked for.
-    if (query.sight.solid.t > 0.0 && test.t >= query.sight.solid.t)
+    Hit held = query.sight.solid;
+    if (held.t > 0.0 && test.t > held.t)
         return tMax;
-    if ((flags & kBvhTriangleOpaque) == 0u &&
-        !acceptHit(instance, number, test.barycentric, test.t, query.direction))
+    uint cover = (flags & kBvhTriangleOpaque) != 0u ? kCoverSolid : coverAt(instance, number, test.barycentric);
+    LayerKey key = LayerKey(test.t, instance, number);
+    bool unsure = kBvhStagedCover && cover == kCoverUnsure;
+    if (cover == kCoverHole || (unsure && !isBefore(query.passed, key)))
+        return tMax;
+    // At one distance a solid wins, then the lower number: all of them are asked, one after the other.
+    LayerKey heldKey = LayerKey(held.t, held.instance, held.triangle);
+    if (held.t == test.t && !(query.unsure && (!unsure || isBefore(key, heldKey))))
         return tMax;
     query.sight.solid = Hit(test.t, instance, number, test.barycentric);
-    if (!query.first)
+    query.unsure = unsure;
+    if (!query.first && !unsure)
         return kBvhFound;
-    return query.looks && query.layerMask != 0u ? min(tMax, layerReach(test.t, query.origin)) : test.t;
+    // Others at the distance of what may be a hole are wanted still; layers a little behind any solid.
+    float end = unsure ? nextAbove(test.t) : test.t;
+    return query.looks && query.layerMask != 0u ? min(tMax, max(end, layerReach(test.t, query.origin))) : end;
 }
 
 #include "trace/bvh_traverse.glsl"
@@ -82,20 +100,43 @@ uint groupsOf(uint mask)
            ((mask & ~kMasksOfSolids) != 0u ? kBvhOtherGroup : 0u);
 }
 
+// What takes a material's stages to be told from a hole is asked between searches, not in them, and only in scenes that
+// have such surfaces: a search that carries little along is traced by many more rays at a time (docs/tracing.md). A ray
+// that went through such a hole goes on searching from there.
+void searchTree(inout BvhQuery query, float tMin, float tMax, uint mask)
+{
+    for (;;) {
+        traverseBvh(rtFrame.treeNodes, query.origin, query.direction, tMin, tMax, mask, groupsOf(mask), query);
+        Hit found = query.sight.solid;
+        if (!kBvhStagedCover || !query.unsure)
+            return;
+        if (acceptHit(found.instance, found.triangle, found.barycentric, found.t, query.direction))
+            return;
+        query.passed = LayerKey(found.t, found.instance, found.triangle);
+        query.unsure = false;
+        query.sight.solid = noHit();
+        tMin = nextBelow(found.t);
+    }
+}
+
+BvhQuery beginQuery(bool looks, bool first, vec3 origin, vec3 direction, uint solidMask, uint layerMask,
+                    LayerKey after)
+{
+    return BvhQuery(looks, first, solidMask, layerMask, origin, direction, Sight(noHit(), emptyBatch(after)), false,
+                    LayerKey(0.0, 0u, 0u));
+}
+
 Sight traceSight(vec3 origin, vec3 direction, float tMin, float tMax, uint solidMask, uint layerMask, LayerKey after)
 {
-    BvhQuery query = BvhQuery(true, true, solidMask, layerMask, origin, direction, Sight(noHit(), emptyBatch(after)));
-    uint mask = solidMask | layerMask;
-    traverseBvh(rtFrame.treeNodes, origin, direction, tMin, layerMask != 0u ? layerReach(tMax, origin) : tMax, mask,
-                groupsOf(mask), query);
+    BvhQuery query = beginQuery(true, true, origin, direction, solidMask, layerMask, after);
+    searchTree(query, tMin, layerMask != 0u ? layerReach(tMax, origin) : tMax, solidMask | layerMask);
     return query.sight;
 }
 
 Hit traceSolid(vec3 origin, vec3 direction, float tMax, uint mask, bool first)
 {
-    BvhQuery query =
-        BvhQuery(false, first, mask, 0u, origin, direction, Sight(noHit(), emptyBatch(LayerKey(0.0, 0u, 0u))));
-    traverseBvh(rtFrame.treeNodes, origin, direction, 0.0, tMax, mask, groupsOf(mask), query);
+    BvhQuery query = beginQuery(false, first, origin, direction, mask, 0u, LayerKey(0.0, 0u, 0u));
+    searchTree(query, 0.0, tMax, mask);
     return query.sight.solid;
 }
 

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "rt/extensions.glsl"
 #include "rays_push.h"
+#include "trace/trace.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer RayTable { BenchRay at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer ResultTable { float at[]; };
@@ -10,6 +11,7 @@ layout(push_constant, scalar) uniform Push { RaysPush push; };
 
 // The names that the back end knows.
 #define rtFrame push
+uint coverAt(uint instance, uint triangle, vec2 barycentric) { return kCoverSolid; }
 bool acceptHit(uint instance, uint triangle, vec2 barycentric, float t, vec3 direction) { return true; }
 float layerDistance(uint instance, uint triangle, vec2 barycentric, float t, vec3 origin, vec3 direction)
 {
