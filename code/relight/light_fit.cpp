@@ -12,6 +12,34 @@ constexpr float kHuberLimit = 2;
 constexpr int kMostSweeps = 60;
 constexpr double kStill = 1e-3;
 constexpr int kLocalSweeps = 6;
+/// A strength is found when a step moves it by less than this share.
+constexpr float kFound = 1e-3f;
+constexpr int kMostSteps = 16;
+
+bool countsOneSide(const FitTarget& target) { return target.atLeast || target.atMost; }
+
+/// What of a residual counts.
+vec3 wrongOf(const FitTarget& target, const vec3& residual) {
+    return target.atLeast ? glm::max(residual, 0.0f) : target.atMost ? glm::min(residual, 0.0f) : residual;
+}
+
+/// The zero of a slope that falls steadily with strength, by Newton's steps. Patches that count on one side only start
+/// or cease to count on the way, so a step may go too far; but every slope tells on which side of it the zero lies.
+class ZeroSearch {
+  public:
+    /// `square`: by how much the slope falls per unit of strength, here.
+    float next(float strength, double slope, double square) {
+        if (slope == 0) return strength;
+        (slope > 0 ? m_low : m_high) = strength;
+        const float step = square > 0 ? strength + static_cast<float>(slope / square) : 0;
+        if (step > m_low && step < m_high) return step;
+        const float middle = 0.5f * (m_low + m_high);
+        return std::isfinite(middle) ? middle : strength;
+    }
+
+  private:
+    float m_low = -std::numeric_limits<float>::infinity(), m_high = std::numeric_limits<float>::infinity();
+};
 
 } // namespace
 
@@ -24,7 +52,8 @@ LightFit::LightFit(std::vector<FitTarget> targets)
 }
 
 size_t LightFit::add(LightColumn column, double price) {
-    m_sources.push_back({std::move(column), vec3(0), std::numeric_limits<float>::infinity(), price});
+    m_sources.push_back({{}, vec3(0), std::numeric_limits<float>::infinity(), price, false});
+    replaceColumn(m_sources.size() - 1, std::move(column));
     return m_sources.size() - 1;
 }
 
@@ -45,7 +74,10 @@ void LightFit::setStrength(size_t source, const vec3& strength) {
 void LightFit::replaceColumn(size_t source, LightColumn column) {
     const vec3 strength = m_sources[source].strength;
     setStrength(source, vec3(0));
-    m_sources[source].column = std::move(column);
+    Source& s = m_sources[source];
+    s.column = std::move(column);
+    s.meetsOneSided = std::any_of(s.column.receiver.begin(), s.column.receiver.end(),
+                                  [this](uint32_t at) { return countsOneSide(m_targets[at]); });
     setStrength(source, strength);
 }
 
@@ -57,27 +89,28 @@ void LightFit::setTargetLight(size_t patch, const vec3& light) {
 void LightFit::reweigh() {
     for (size_t i = 0; i < m_targets.size(); ++i) {
         const FitTarget& target = m_targets[i];
-        const vec3 r = glm::abs(m_residual[i]);
-        const float size = largestOf(r) / target.tolerance;
+        const float size = largestOf(glm::abs(wrongOf(target, m_residual[i]))) / target.tolerance;
         m_robust[i] =
             target.weight / (target.tolerance * target.tolerance) * (size > kHuberLimit ? kHuberLimit / size : 1);
     }
 }
 
-vec3 LightFit::weightAt(size_t patch) const {
+vec3 LightFit::weightAt(size_t patch) const { return weightAt(patch, m_residual[patch]); }
+
+vec3 LightFit::weightAt(size_t patch, const vec3& residual) const {
     const float weight = m_robust[patch];
-    const FitTarget& target = m_targets[patch];
-    if (!target.atLeast && !target.atMost) return vec3(weight);
-    const vec3 wrong = target.atLeast ? m_residual[patch] : -m_residual[patch];
-    return {wrong.x > 0 ? weight : 0, wrong.y > 0 ? weight : 0, wrong.z > 0 ? weight : 0};
+    if (!countsOneSide(m_targets[patch])) return vec3(weight);
+    const vec3 wrong = wrongOf(m_targets[patch], residual);
+    return {wrong.x != 0 ? weight : 0, wrong.y != 0 ? weight : 0, wrong.z != 0 ? weight : 0};
 }
 
-LightFit::Slope LightFit::slopeOf(const LightColumn& column) const {
+LightFit::Slope LightFit::slopeOf(const LightColumn& column, const vec3& more) const {
     Slope slope;
     for (size_t i = 0; i < column.receiver.size(); ++i) {
         const uint32_t at = column.receiver[i];
-        const vec3 weighted = weightAt(at) * column.value[i];
-        slope.gradient += dvec3(weighted * m_residual[at]);
+        const vec3 residual = m_residual[at] - more * column.value[i];
+        const vec3 weighted = weightAt(at, residual) * column.value[i];
+        slope.gradient += dvec3(weighted * residual);
         slope.square += dvec3(weighted * column.value[i]);
     }
     return slope;
@@ -85,13 +118,17 @@ LightFit::Slope LightFit::slopeOf(const LightColumn& column) const {
 
 vec3 LightFit::bestStrength(size_t source) const {
     const Source& s = m_sources[source];
-    const Slope slope = slopeOf(s.column);
-    vec3 strength = s.strength;
-    for (int c = 0; c < 3; ++c)
-        if (slope.square[c] > 0)
-            strength[c] = std::clamp(strength[c] + static_cast<float>((slope.gradient[c] - s.price) / slope.square[c]),
-                                     0.0f, s.limit);
-    return strength;
+    vec3 best = s.strength;
+    if (s.column.receiver.empty()) return best;
+    ZeroSearch search[3];
+    for (int step = 0; step < kMostSteps; ++step) {
+        const Slope slope = slopeOf(s.column, best - s.strength);
+        const vec3 before = best;
+        for (int c = 0; c < 3; ++c)
+            best[c] = std::clamp(search[c].next(best[c], slope.gradient[c] - s.price, slope.square[c]), 0.0f, s.limit);
+        if (!s.meetsOneSided || largestOf(glm::abs(best - before) - kFound * best) <= 0) break;
+    }
+    return best;
 }
 
 double LightFit::gainOf(const LightColumn& column, double price) const {

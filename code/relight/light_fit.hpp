@@ -61,6 +61,7 @@ class LightFit {
         vec3 strength{0};
         float limit;
         double price;
+        bool meetsOneSided; ///< its column has patches that count on one side only
     };
     std::vector<FitTarget> m_targets;
     std::vector<Source> m_sources;
@@ -70,7 +71,9 @@ class LightFit {
     struct Slope {
         dvec3 gradient{0}, square{0};
     };
-    Slope slopeOf(const LightColumn& column) const;
+    /// Of the cost, were a source with this column stronger by `more`.
+    Slope slopeOf(const LightColumn& column, const vec3& more = vec3(0)) const;
+    vec3 weightAt(size_t patch, const vec3& residual) const;
 };
 
 } // namespace q3rt

@@ -72,6 +72,19 @@ TEST(LightFit, SaturatedPatchesAreLowerBounds) {
     problem.expectSolved(1);
 }
 
+TEST(LightFit, BoundsThatContradictMeetInTheMiddle) {
+    std::vector<FitTarget> targets(2);
+    targets[0] = {.light = vec3(100), .weight = 1, .tolerance = 20, .atLeast = true};
+    targets[1] = {.light = vec3(50), .weight = 1, .tolerance = 20, .atMost = true};
+    LightColumn column;
+    column.append(0, 1);
+    column.append(1, 1);
+    LightFit fit(targets);
+    const size_t source = fit.add(column);
+    fit.solve(3);
+    EXPECT_NEAR(fit.strength(source).x, 75, 0.1);
+}
+
 TEST(LightFit, NeverBelowZeroNorAboveALimit) {
     std::vector<FitTarget> targets(2);
     targets[0].light = vec3(10, -5, 0);
