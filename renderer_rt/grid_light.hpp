@@ -1,32 +1,36 @@
 #pragma once
 // What of the map's light grid the extracted lights explain, so that no light counts twice: a cell loses what they give
-// there, shadows included. What stays is the light that was lost with the map's source. Surfaces and models differ: on
-// surfaces the lightmap knows better than the grid how much is missing (limitGrid, raiseGrid); of models, which hang in
-// the air that no luxel sees, the grid is all that is known, as the engine shows it.
+// there, shadows included. What stays is the light that was lost with the map's source, and bounces. Surfaces and
+// models differ: on surfaces the lightmap knows better than the grid how much is missing (capGrid); of models, which
+// hang in the air that no luxel sees, the grid is all that is known, as the engine shows it.
 
-#include <array>
-
-#include "renderer_rt/world_lights.hpp"
+#include "renderer_rt/light_probe.hpp"
 
 namespace q3rt {
 
-/// Directions of a cell: its own, the opposite one, four across.
-inline constexpr size_t kGridWays = 6;
-/// Irradiance of a surface that faces them, luxel units.
-using GridIrradiance = std::array<vec3, kGridWays>;
+/// Takes what the lights give from every cell of `grid`, and sets `sunSeen`. Returns what they give, by cell and way:
+/// the first is the cell's direction. `shape`: of the map's grid, whose cells these are.
+std::vector<ProbeWays> explainGrid(const LightProbe& probe, const LightGrid& shape, std::vector<RtGridCell>& grid);
 
-/// Takes what the lights give from every cell of `tables.grid`, and sets `sunSeen`. Returns what they give, by cell.
-std::vector<GridIrradiance> explainGrid(const World& world, const MaterialLibrary& materials, LightTables& tables);
+/// On surfaces. No cell has less than the light that is everywhere: the grids of some compilers lack it. And each gets
+/// what its directions lack, mean over them, of the least irradiance that the bake let a surface have. `explained` is
+/// an estimate of a few rays and stands inside a maximum: its noise makes the result a little too bright. Luxel units.
+void raiseGrid(std::vector<RtGridCell>& grid, const std::vector<ProbeWays>& explained, const vec3& ambient,
+               const vec3& floor);
 
-/// On surfaces. What stays is light that is everywhere (`ambient`) and bounces. Darkens the bounces where their mean is
-/// above that of the light that they stand for, channel by channel: the grid's cells are coarse, and some compilers
-/// made it brighter than the lightmap. `mean` of both: irradiance, luxel units. The grid of some compilers has no light
-/// that is everywhere; here every cell gets it, once.
-void limitGrid(std::vector<RtGridCell>& grid, const vec3& mean, const vec3& ambient);
+/// A point of a face.
+struct LuxelLack {
+    vec3 position{0}, normal{0};
+    float light = 0; ///< irradiance that its luxel has and the lights do not give, sum of the channels; unbiased
+    bool isOpen = false;
+};
 
-/// On surfaces. Adds to each cell what its directions lack of the least irradiance that the bake let a surface have,
-/// mean over them. `explained` is an estimate of a few rays and stands inside a maximum: its noise makes the result a
-/// little too bright.
-void raiseGrid(std::vector<RtGridCell>& grid, const std::vector<GridIrradiance>& explained, const vec3& floor);
+/// At points evenly over the lightmapped faces.
+std::vector<LuxelLack> findLacks(const World& world, const MaterialLibrary& materials, const LightProbe& probe);
+
+/// On surfaces. Darkens each cell to what the luxels that take light from it lack, mean over them: cells are coarse,
+/// stand in the air, and some compilers made them brighter than the lightmap. A cell from which none takes light is
+/// darkened as all are on the mean.
+void capGrid(const LightGrid& shape, std::vector<RtGridCell>& grid, const std::vector<LuxelLack>& lacks);
 
 } // namespace q3rt

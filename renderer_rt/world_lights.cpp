@@ -188,9 +188,11 @@ WorldLights::WorldLights(Device& device, Uploader& uploader, const World& world,
                          const LightSet& lights, const ModelLightScale& scale, const TextureLibrary& textures)
     : m_animation(materials, textures) {
     LightTables tables = buildLightTables(world, materials, lights, scale, m_animation);
-    const std::vector<GridIrradiance> explained = explainGrid(world, materials, tables);
-    if (lights.indirect) limitGrid(tables.grid, *lights.indirect, lights.ambient);
-    raiseGrid(tables.grid, explained, lights.floor);
+    if (!tables.grid.empty()) {
+        const LightProbe probe(world, materials, tables);
+        raiseGrid(tables.grid, explainGrid(probe, world.grid, tables.grid), lights.ambient, lights.floor);
+        capGrid(world.grid, tables.grid, findLacks(world, materials, probe));
+    }
     m_others = tables.others;
     for (size_t i = 0; i < lights.triangles.size(); ++i) {
         const TriangleLight& light = lights.triangles[i];

@@ -95,10 +95,8 @@ RelightResult relight(const World& world, const MaterialLibrary& materials, cons
         if (progress.stage) progress.stage(result.lights);
         advance(done += stepsOfStage(stage, counts));
     }
-    const RelightModel found(input, result.lights);
-    result.lights.indirect = found.meanIndirect();
+    result.after = RelightModel(input, result.lights).scoreHeldOut(kScoredLuxels);
     result.lights.stage = result.lights.budget = 0;
-    result.after = found.scoreHeldOut(kScoredLuxels);
     advance(all);
     return result;
 }

@@ -159,16 +159,6 @@ void RelightModel::settle() {
     m_fit.solve(1);
 }
 
-vec3 RelightModel::meanIndirect() const {
-    dvec3 sum(0);
-    double weight = 0;
-    for (size_t i = 0; i < m_bounced.size(); ++i) {
-        sum += m_bounceScale * double(m_fit.targets()[i].weight) * dvec3(m_bounced[i]);
-        weight += m_fit.targets()[i].weight;
-    }
-    return m_fit.strength(m_ambientSource) + (weight > 0 ? vec3(sum / weight) : vec3(0));
-}
-
 LostLights RelightModel::lights() const {
     LostLights lights;
     lights.lightmap = m_input.fingerprint;

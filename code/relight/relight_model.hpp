@@ -24,8 +24,6 @@ class RelightModel {
     void settle();
 
     LostLights lights() const;
-    /// Bounces and light that is everywhere, mean over the area.
-    vec3 meanIndirect() const;
     size_t pointCount() const { return m_points->lights().size(); }
     double bounceScale() const { return m_bounceScale; }
     double cost() const { return m_fit.cost(); }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "scene/world.hpp"
@@ -71,8 +70,6 @@ struct LightSet {
     std::vector<SunLight> suns; ///< of drawn skies
     std::vector<SkyLight> skies;
     std::vector<PointLight> points; ///< surviving light entities
-    /// Mean irradiance over the map of what all these do not give: bounces, and `ambient`. None: not known.
-    std::optional<vec3> indirect;
     vec3 ambient{0};              ///< irradiance that is the same everywhere; 0: there is none, or it is not known
     vec3 floor{0};                ///< the least irradiance that a surface has
     size_t emissiveSurfaces = 0;  ///< that gave triangles

@@ -161,9 +161,6 @@ class Reader {
             m_lights.faintest = std::max(0.0f, given(1, 1)[0]);
         } else if (key == "_bounce") {
             m_lights.bounce = std::max(0.0f, given(1, 1)[0]);
-        } else if (key == "_indirect") {
-            const std::vector<float> v = given(3, 3);
-            m_lights.indirect = glm::max(vec3(v[0], v[1], v[2]), vec3(0));
         } else if (key == "_stage") {
             const std::vector<float> v = given(2, 2);
             m_lights.stage = static_cast<size_t>(std::max(0.0f, v[0]));
@@ -210,8 +207,6 @@ std::string formatLostLights(const LostLights& lights, std::string_view map) {
     if (lights.compensate != 1) text += pair("_compensate", numbers({lights.compensate}, 4)) + "\n";
     if (lights.faintest > 0) text += pair("_faintest", numbers({lights.faintest}, 4)) + "\n";
     if (lights.bounce > 0) text += pair("_bounce", numbers({lights.bounce}, 2)) + "\n";
-    if (lights.indirect)
-        text += pair("_indirect", numbers({lights.indirect->x, lights.indirect->y, lights.indirect->z}, 3)) + "\n";
     if (lights.stage > 0) text += pair("_stage", formatText("%zu %zu", lights.stage, lights.budget)) + "\n";
     if (lights.ambientValue > 0)
         text += pair("ambient", numbers({lights.ambientValue}, 3)) + " " + pair("_color", color(lights.ambientColor)) +
@@ -282,7 +277,6 @@ void applyLostLights(const LostLights& lost, const World& world, const MaterialL
     std::erase_if(lights.triangles, [](const TriangleLight& light) { return light.radiance == vec3(0); });
     std::erase_if(lights.skies, [](const SkyLight& sky) { return !(sky.radiosity > 0); });
     addLostSkies(world, materials, surfaceLights, scale, lights);
-    if (lost.indirect) lights.indirect = scale * *lost.indirect;
     lights.ambient = scale * lost.ambientValue * lost.ambientColor;
     lights.floor = scale * lost.floor;
     lights.suns = lost.suns;

@@ -3,7 +3,6 @@
 // worldspawn, whose keys are those of the shader scripts, and light entities. What it says replaces what scripts and
 // the map's own lump say; what it leaves out stays.
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,14 +18,12 @@ struct LostLights {
         float value = 0;
         vec3 color{1}; ///< largest component 1
     };
-    std::string lightmap; ///< of which bake it is, see lightmapFingerprint()
-    float compensate = 1; ///< the bake was divided by this at the end (q3map2 -compensate)
-    float faintest = 0;   ///< what a point light gives to a place is left out at or below this, luxel units
-    float bounce = 0;     ///< of physics' diffuse bounces, what the bake had; the renderer has it from the light grid
-    size_t stage = 0;     ///< of work that was broken off: stages done; 0: finished
-    size_t budget = 0;    ///< of that work: lights that it may find
-    /// Mean over the map's luxels of light that comes by bounces or is everywhere; none: not known.
-    std::optional<vec3> indirect;
+    std::string lightmap;   ///< of which bake it is, see lightmapFingerprint()
+    float compensate = 1;   ///< the bake was divided by this at the end (q3map2 -compensate)
+    float faintest = 0;     ///< what a point light gives to a place is left out at or below this, luxel units
+    float bounce = 0;       ///< of physics' diffuse bounces, what the bake had; the renderer has it from the light grid
+    size_t stage = 0;       ///< of work that was broken off: stages done; 0: finished
+    size_t budget = 0;      ///< of that work: lights that it may find
     float ambientValue = 0; ///< the same everywhere
     vec3 ambientColor{1};
     vec3 floor{0}; ///< no luxel is below it

@@ -134,6 +134,11 @@ std::vector<Luxel> sampleLuxels(const World& world, const MaterialLibrary& mater
     return luxels;
 }
 
+double luxelAreaQu2(const World& world, const MaterialLibrary& materials) {
+    const std::vector<SampledTriangle> triangles = luxelTriangles(world, materials);
+    return triangles.empty() ? 0 : triangles.back().areaSum;
+}
+
 LuxelReport checkLuxels(const World& world, const MaterialLibrary& materials, const LightSet& lights, size_t count,
                         uint32_t seed, unsigned threadCount) {
     const std::vector<Luxel> luxels = sampleLuxels(world, materials, count, seed);

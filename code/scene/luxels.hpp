@@ -19,6 +19,9 @@ struct Luxel {
 /// out. The same seed gives the same points.
 std::vector<Luxel> sampleLuxels(const World& world, const MaterialLibrary& materials, size_t count, uint32_t seed);
 
+/// Area of these faces.
+double luxelAreaQu2(const World& world, const MaterialLibrary& materials);
+
 /// All in luxel units of the largest channel.
 struct LuxelReport {
     size_t pointCount = 0;

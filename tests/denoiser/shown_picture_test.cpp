@@ -100,7 +100,7 @@ TEST_F(ShownPictureTest, GammaIsBakedIntoTextures) {
 
 TEST_F(ShownPictureTest, LinearLightDarkensTexturesAndBrightensTheMiddle) {
     // Light 1 shows a texture as it is, in both: the decoded texture is encoded again.
-    const Settings bright{{"rt_exposure", "100"}};
+    const Settings bright{{"rt_exposure", "100"}, {"rt_minLight", "1"}}; // dark corners too
     Settings linear = bright;
     linear.emplace_back("rt_linear", "1");
     EXPECT_LE(worstDifference(show(bright, 4), show(linear, 4), 0, kWidth), 1);

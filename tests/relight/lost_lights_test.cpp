@@ -18,7 +18,6 @@ LostLights someLights() {
     lights.compensate = 2.5f;
     lights.faintest = 1;
     lights.bounce = 0.5f;
-    lights.indirect = vec3(3, 2, 1);
     lights.ambientValue = 7;
     lights.ambientColor = {1, 0.5f, 0.25f};
     lights.floor = vec3(12);
@@ -37,7 +36,6 @@ TEST(LostLights, TextIsReadBack) {
     EXPECT_FLOAT_EQ(read.compensate, 2.5f);
     EXPECT_FLOAT_EQ(read.faintest, 1);
     EXPECT_FLOAT_EQ(read.bounce, 0.5f);
-    EXPECT_EQ(read.indirect, vec3(3, 2, 1));
     EXPECT_FLOAT_EQ(read.ambientValue, 7);
     EXPECT_EQ(read.ambientColor, lights.ambientColor);
     EXPECT_EQ(read.floor, lights.floor);
@@ -134,8 +132,6 @@ TEST(LostLights, ReplaceWhatScriptsSay) {
     }
     EXPECT_GT(changed, 0u);
     EXPECT_LT(changed, lights.triangles.size());
-    ASSERT_TRUE(lights.indirect);
-    EXPECT_NEAR(lights.indirect->x, 3 / 2.5, 1e-5);
     EXPECT_NEAR(lights.ambient.y, 0.5 * 7 / 2.5, 1e-5);
     EXPECT_NEAR(lights.floor.x, 12 / 2.5, 1e-5);
     ASSERT_EQ(lights.points.size(), 2u);

@@ -93,18 +93,14 @@ TEST_F(LostLightTest, IsSwitchedOffAndOn) {
     EXPECT_NEAR(radiance(), radianceOfPoint(100), 0.01 * radianceOfPoint(100));
 }
 
-TEST_F(LostLightTest, LightThatIsEverywhereAndTheFloorReachThePicture) {
-    const auto file = [](const std::string& keys) {
-        return "{ \"classname\" \"worldspawn\" \"_indirect\" \"20 20 20\" \"ambient\" \"20\" " + keys +
-               "\"q3map_surfacelight textures/baseq3test/light_square\" \"0 1 1 1\" }\n";
-    };
-    m_game.addText(kFile, file(""));
+TEST_F(LostLightTest, WhatNoLightExplainsComesFromTheGridOnce) {
+    m_game.addText(kFile, lightText(0)); // the emitter is dark, but was there when the map was baked
     start("1");
     m_harness->set("rt_ambient", "1");
-    EXPECT_NEAR(radiance(), kTestWallAlbedo * 20 / 63.75, 1e-3);
-    m_game.addText(kFile, file("\"_minlight\" \"32\" "));
-    ASSERT_TRUE(m_harness->engine().runCommand({"rt_reloadLights"}));
-    EXPECT_NEAR(radiance(), kTestWallAlbedo * 32 / 63.75, 1e-3) << "the floor takes in what is there";
+    EXPECT_NEAR(radiance(), radianceOfEmitter(), 0.03 * radianceOfEmitter());
+    m_harness->engine().cvars.set("rt_lostLights", "0");
+    constexpr int kMoreFrames = 64; // of an emitter's noise
+    EXPECT_NEAR(radiance(kMoreFrames), radianceOfEmitter(), 0.01 * radianceOfEmitter()) << "the grid adds nothing";
 }
 
 TEST_F(LostLightTest, DamagedItIsLeftOut) {
@@ -137,37 +133,48 @@ TEST(LostLightFile, SaysWhatIsWrong) {
     setLogSink({});
 }
 
-TEST(LimitGrid, OnlyDarkensDownToTheMean) {
-    std::vector<RtGridCell> grid(3);
-    for (size_t i = 0; i < 2; ++i) {
-        grid[i].valid = 1;
-        grid[i].surfaces.ambient = vec3(10, 2, 0) * static_cast<float>(i + 1);
-        grid[i].surfaces.directed = vec3(20, 4, 0);
+/// Two cells beside each other and one in a wall, 64 qu apart.
+struct SmallGrid {
+    LightGrid shape;
+    std::vector<RtGridCell> cells{3};
+    SmallGrid() {
+        shape.origin = vec3(0);
+        shape.cellSize = vec3(64);
+        shape.counts = {3, 1, 1};
+        for (size_t i = 0; i < 2; ++i) {
+            cells[i].valid = 1;
+            cells[i].direction = vec3(0, 0, 1);
+            cells[i].surfaces = {vec3(10, 2, 0), vec3(20, 4, 0)};
+        }
     }
-    grid[2].surfaces.ambient = vec3(1000); // in a wall
-    std::vector<RtGridCell> limited = grid;
-    limitGrid(limited, vec3(5, 100, 1), vec3(0)); // the mean is (10 + 20) / 2 + 20 / 4 in red, a fifth of that in green
-    EXPECT_NEAR(limited[0].surfaces.ambient.x, 10 * 5.0 / 20.0, 1e-5);
-    EXPECT_NEAR(limited[1].surfaces.ambient.x, 20 * 5.0 / 20.0, 1e-5);
-    EXPECT_NEAR(limited[1].surfaces.directed.x, 20 * 5.0 / 20.0, 1e-5);
-    EXPECT_EQ(limited[1].surfaces.ambient.y, grid[1].surfaces.ambient.y);
-    EXPECT_EQ(limited[0].surfaces.directed.y, grid[0].surfaces.directed.y);
-    EXPECT_EQ(limited[0].surfaces.ambient.z, 0);
+    float shareLeft(size_t i) const { return cells[i].surfaces.directed.y / 4; }
+};
+
+TEST(CapGrid, NoMoreThanTheLuxelsLack) {
+    const vec3 up(0, 0, 1), down(0, 0, -1);
+    SmallGrid grid; // gives 36 upwards, 12 downwards, sum of the channels
+    capGrid(grid.shape, grid.cells,
+            {{vec3(0), up, 10, true}, {vec3(0), down, 2, true}, {vec3(64, 0, 0), up, 100, true}});
+    EXPECT_NEAR(grid.shareLeft(0), 12.0 / 48, 1e-5);
+    EXPECT_NEAR(grid.cells[0].surfaces.ambient.x, 10 * 12.0 / 48, 1e-5) << "hue stays";
+    EXPECT_EQ(grid.shareLeft(1), 1) << "only darkens";
+    SmallGrid between;
+    capGrid(between.shape, between.cells, {{vec3(48, 0, 0), up, 9, true}, {vec3(0), up, -5, true}});
+    EXPECT_NEAR(between.shareLeft(1), 0.25, 1e-5) << "asked with the shaders' weights";
+    EXPECT_EQ(between.shareLeft(0), 0) << "(9 / 4 - 5) of (36 / 4 + 36): too much already";
 }
 
-TEST(LimitGrid, LightThatIsEverywhereCountsOnce) {
-    std::vector<RtGridCell> grid(2);
-    grid[0].valid = grid[1].valid = 1;
-    grid[0].surfaces.ambient = vec3(30, 4, 0); // the third channel's grid has nothing of it
-    grid[1].surfaces.ambient = vec3(10, 4, 0);
-    limitGrid(grid, vec3(15, 15, 15), vec3(10, 10, 15));
-    EXPECT_NEAR(grid[0].surfaces.ambient.x, 10 + 20 * 5.0 / 10.0,
-                1e-5); // bounces: 20 and 0, of which the mean may be 5
-    EXPECT_NEAR(grid[1].surfaces.ambient.x, 10, 1e-5);
-    for (const RtGridCell& cell : grid) {
-        EXPECT_NEAR(cell.surfaces.ambient.y, 10, 1e-5);
-        EXPECT_NEAR(cell.surfaces.ambient.z, 15, 1e-5);
-    }
+TEST(CapGrid, WhereNoLuxelTellsTheMeanDoes) {
+    SmallGrid grid;
+    capGrid(grid.shape, grid.cells, {{vec3(0), vec3(0, 0, 1), 9, true}});
+    EXPECT_NEAR(grid.shareLeft(1), 0.25, 1e-5);
+    SmallGrid unasked;
+    capGrid(unasked.shape, unasked.cells, {});
+    EXPECT_EQ(unasked.shareLeft(0), 1) << "of a map without a luxel nothing is known";
+    SmallGrid dark; // nothing is there, and that is too much
+    dark.cells.assign(3, RtGridCell{.valid = 1});
+    capGrid(dark.shape, dark.cells, {{vec3(0), vec3(0, 0, 1), -9, true}});
+    EXPECT_EQ(dark.cells[0].surfaces.ambient, vec3(0));
 }
 
 TEST(ModelLight, IsTheGridLessWhatTheLightsGive) {
@@ -180,8 +187,12 @@ TEST(ModelLight, IsTheGridLessWhatTheLightsGive) {
     for (const LightSet& lights : {LightSet{}, extractLights(*world, materials)}) {
         LightTables tables = buildLightTables(*world, materials, lights, scale, animation);
         const std::vector<RtGridCell> baked = tables.grid;
-        const std::vector<GridIrradiance> given = explainGrid(*world, materials, tables);
-        limitGrid(tables.grid, vec3(0), vec3(0)); // the lightmap lacks nothing
+        const LightProbe probe(*world, materials, tables);
+        const std::vector<ProbeWays> given = explainGrid(probe, world->grid, tables.grid);
+        std::vector<LuxelLack> nothing;
+        for (const Vertex& vertex : world->vertices)
+            nothing.push_back({vertex.position, vertex.normal, -1, true});
+        capGrid(world->grid, tables.grid, nothing);
         int lit = 0;
         for (size_t i = 0; i < baked.size(); ++i) {
             if (baked[i].valid == 0) continue;
@@ -205,15 +216,18 @@ TEST(RaiseGrid, GivesWhatLacks) {
     grid[0].surfaces.ambient = vec3(4);
     grid[0].surfaces.directed = vec3(6);
     grid[1].surfaces.ambient = vec3(25);
-    const GridIrradiance half = {vec3(1), vec3(0), vec3(2), vec3(30), vec3(0), vec3(0)};
+    const ProbeWays half = {vec3(1), vec3(0), vec3(2), vec3(30), vec3(0), vec3(0)};
     std::vector<RtGridCell> raised = grid;
-    raiseGrid(raised, {half, half, half}, vec3(20, 0, 20));
+    raiseGrid(raised, {half, half, half}, vec3(0), vec3(20, 0, 20));
     // Given: 11, 4, 6, 34, 4, 4.
     EXPECT_NEAR(raised[0].surfaces.ambient.x, 4 + (9 + 16 + 14 + 0 + 16 + 16) / 6.0, 1e-5);
     EXPECT_EQ(raised[0].surfaces.ambient.y, 4);
     EXPECT_EQ(raised[0].surfaces.directed, grid[0].surfaces.directed);
     EXPECT_EQ(raised[1].surfaces.ambient, grid[1].surfaces.ambient) << "light enough";
     EXPECT_EQ(raised[2].surfaces.ambient, vec3(0)) << "in a wall";
+    raised = grid;
+    raiseGrid(raised, {half, half, half}, vec3(10, 3, 0), vec3(0));
+    EXPECT_EQ(raised[0].surfaces.ambient, vec3(10, 4, 4)) << "light that is everywhere counts once";
 }
 
 } // namespace

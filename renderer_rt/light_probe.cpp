@@ -1,0 +1,115 @@
+#include "renderer_rt/light_probe.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer_rt/surface_class.hpp"
+#include "shaders/shared/constants.h"
+
+namespace q3rt {
+
+namespace {
+
+using namespace glm;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+using uint = uint32_t;
+
+#include "lib/light.glsl"
+
+ProbeWays waysAround(const vec3& axis) {
+    const Frame frame = frameAround(axis);
+    return {frame.normal, -frame.normal, frame.tangent, -frame.tangent, frame.bitangent, -frame.bitangent};
+}
+
+/// Light that comes along a line, as irradiance across it.
+void addFlux(const vec3& flux, const vec3& way, const ProbeWays& ways, ProbeWays& sum) {
+    const vec3 direction = glm::normalize(way);
+    for (size_t k = 0; k < ways.size(); ++k)
+        sum[k] += flux * std::max(0.0f, dot(ways[k], direction));
+}
+
+void lookAtTriangle(const RtTriangleLight& light, const vec3& point, float u, float v, vec3& way, vec3& flux) {
+    const vec3 corner = light.corner - point;
+    const float height = -dot(light.normal, corner);
+    // A point in the light's own plane takes nothing from it.
+    if (std::abs(height) <= light.error || (height < 0.0f && (light.flags & kLightTwoSided) == 0)) return;
+    const SphericalTriangle seen =
+        makeSphericalTriangle(corner, light.edge1, light.edge2, std::abs(height), light.areaQu2);
+    way = sampleSphericalTriangle(seen, u, v);
+    if ((light.flags & kLightUpward) != 0 && way.z <= 0.0f) return;
+    flux = light.radiance * (2.0f * seen.halfAngle);
+    way += light.normal * (height > 0.0f ? light.error : -light.error); // short of the light's own surface
+}
+
+void lookAtPoint(const RtLight& light, const vec3& point, vec3& way, vec3& flux) {
+    way = light.position - point;
+    const float distance2 = std::max(dot(way, way), kLightMinDistanceQu * kLightMinDistanceQu);
+    flux = light.power / distance2;
+    if (isFaint(flux, light.faintest)) flux = vec3(0.0f);
+    if (light.spot > 0.0f) flux *= spotShare(light.axis, light.spot, -way);
+}
+
+} // namespace
+
+LightProbe::LightProbe(const World& world, const MaterialLibrary& materials, const LightTables& tables)
+    : m_world(world)
+    , m_tables(tables)
+    , m_farQu(2.0f * glm::length(world.bounds.maxs - world.bounds.mins)) {
+    std::vector<vec3> positions;
+    const BspModel& model = world.bsp.models.front();
+    for (int s = 0; s < model.surfaceCount; ++s) {
+        const WorldSurface& surface = world.surfaces[static_cast<size_t>(model.firstSurface + s)];
+        const auto surfaceClass = classifySurface(materials.get(surface.material));
+        if (!surface.drawn || !surfaceClass || !isOpaqueClass(*surfaceClass)) continue;
+        for (uint32_t i = 0; i < surface.indexCount; ++i)
+            positions.push_back(world.vertices[world.indices[surface.firstIndex + i]].position);
+        m_isSky.resize(positions.size() / 3, *surfaceClass == SurfaceClass::Sky);
+    }
+    m_tracer = std::make_unique<CpuTracer>(positions);
+}
+
+LightProbe::Seen LightProbe::look(const vec3& point, const vec3& axis, uint32_t rayCount, std::mt19937& random) const {
+    const int cluster = m_world.clusterOf(point);
+    const RtLightRow& row = cluster >= 0 && cluster < m_world.bsp.clusterCount
+                                ? m_tables.rows.ofCluster(static_cast<size_t>(cluster))
+                                : m_tables.rows.outside();
+    const ProbeWays ways = waysAround(axis);
+    Seen seen;
+    addRow(point, row, ways, rayCount, random, seen.irradiance);
+    if (row.seesSky != 0) addSuns(point, ways, seen);
+    return seen;
+}
+
+void LightProbe::addRow(const vec3& point, const RtLightRow& row, const ProbeWays& ways, uint32_t rayCount,
+                        std::mt19937& random, ProbeWays& sum) const {
+    if (row.facing == 0) return;
+    std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
+    const auto start = static_cast<uint32_t>(random());
+    for (uint32_t i = 0; i < rayCount; ++i) {
+        const DrawnLight drawn = drawLight(m_tables.rows, row, start + i * (~0u / rayCount));
+        const float u = uniform(random), v = uniform(random);
+        vec3 way(0.0f), flux(0.0f);
+        if (drawn.light < m_tables.triangles.size())
+            lookAtTriangle(m_tables.triangles[drawn.light], point, u, v, way, flux);
+        else
+            lookAtPoint(m_tables.points[drawn.light - m_tables.triangles.size()], point, way, flux);
+        if (flux == vec3(0.0f) || m_tracer->occluded(point, way, 1.0f)) continue;
+        addFlux(flux * (drawn.weight / static_cast<float>(rayCount)), way, ways, sum);
+    }
+}
+
+void LightProbe::addSuns(const vec3& point, const ProbeWays& ways, Seen& seen) const {
+    float all = 0, arrived = 0;
+    for (const RtLight& sun : m_tables.others) {
+        CpuHit hit;
+        all += lightWeight(sun.power);
+        if (!m_tracer->closest(point, sun.position, 0.0f, m_farQu, hit) || !m_isSky[hit.triangle]) continue;
+        arrived += lightWeight(sun.power);
+        addFlux(sun.power, sun.position, ways, seen.irradiance);
+    }
+    if (all > 0) seen.sunSeen = arrived / all;
+}
+
+} // namespace q3rt

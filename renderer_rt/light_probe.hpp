@@ -1,0 +1,41 @@
+#pragma once
+// What the lights of the tables give at a point of the map, by rays on the processor: shadows included, no bounces.
+
+#include <array>
+#include <memory>
+#include <random>
+
+#include "accel/cpu_tracer.hpp"
+#include "renderer_rt/world_lights.hpp"
+
+namespace q3rt {
+
+/// By direction: an axis, the opposite one, four across.
+using ProbeWays = std::array<vec3, 6>;
+
+/// The map and the tables must outlive it; rows, nodes and lights of the tables must stay as they are.
+class LightProbe {
+  public:
+    LightProbe(const World& world, const MaterialLibrary& materials, const LightTables& tables);
+
+    struct Seen {
+        ProbeWays irradiance{}; ///< of surfaces that face the ways, luxel units
+        float sunSeen = 0;      ///< share of the suns' light that arrives; of none: 0
+    };
+    /// An unbiased estimate with any number of shadow rays to the lights of the point's row, and one to each sun.
+    /// `axis`: of unit length.
+    Seen look(const vec3& point, const vec3& axis, uint32_t rayCount, std::mt19937& random) const;
+
+  private:
+    void addRow(const vec3& point, const RtLightRow& row, const ProbeWays& ways, uint32_t rayCount,
+                std::mt19937& random, ProbeWays& sum) const;
+    void addSuns(const vec3& point, const ProbeWays& ways, Seen& seen) const;
+
+    const World& m_world;
+    const LightTables& m_tables;
+    std::unique_ptr<CpuTracer> m_tracer;
+    std::vector<char> m_isSky; ///< by triangle of the tracer
+    float m_farQu;
+};
+
+} // namespace q3rt
