@@ -29,6 +29,7 @@ void TraceRenderer::drawWorldView(FrameGraph& graph, FrameTargets& targets, cons
     if (buffers.denoiser) buffers.denoiser->addBeforeDirect(graph, resources);
     if (view.frame.lightsPerPixel == 1) {
         addChoose(graph, resources, work);
+        addSort(graph, resources, work);
         addShadows(graph, resources, work);
     } else {
         addDirect(graph, resources, work);

@@ -19,6 +19,7 @@
 #include "spirv/rt_shadows_compute.hpp"
 #include "spirv/rt_shadows_query.hpp"
 #include "spirv/rt_shadows_rgen.hpp"
+#include "spirv/rt_sort_comp.hpp"
 #include "spirv/trace_accept_rahit.hpp"
 #include "spirv/trace_layers_rahit.hpp"
 #include "spirv/trace_layers_rmiss.hpp"
@@ -76,6 +77,8 @@ StagePipelines::StagePipelines(Device& device, Backend backend, VkDescriptorSetL
         ComputePipeline(device, {"shade", {shaders::rt_shade_comp, {}}, interface});
     m_pointStages[indexOf(PointStage::Choose)] =
         ComputePipeline(device, {"choose", {shaders::rt_choose_comp, {}}, interface});
+    m_pointStages[indexOf(PointStage::Sort)] =
+        ComputePipeline(device, {"sort", {shaders::rt_sort_comp, {}}, interface});
 }
 
 void StagePipelines::requirePlain(Device& device) {
@@ -140,7 +143,7 @@ void StagePipelines::dispatch(VkCommandBuffer commands, PointStage stage, const 
     pipeline.bind(commands);
     pipeline.bindSets(commands, {input.textures});
     pipeline.push(commands, input.push);
-    const uint32_t side = stage == PointStage::Choose ? kShadowTile : 8;
+    const uint32_t side = stage == PointStage::Sort ? kShadowTile : 8;
     pipeline.dispatchOver(commands, input.extent, side, side);
 }
 
@@ -160,6 +163,7 @@ void StagePipelines::warm(VkCommandBuffer commands, const StageInput& input) con
     run(PointStage::Shade, input.extent);
     run(TraceStage::Primary, input.extent);
     run(PointStage::Choose, input.extent);
+    run(PointStage::Sort, input.extent);
     run(TraceStage::Shadows, wholeTiles(input.extent));
     run(TraceStage::Direct, input.extent);
     if (m_hasPlain) run(TraceStage::Plain, input.extent);

@@ -17,8 +17,8 @@ namespace q3rt {
 enum class TraceStage { Look, Primary, Direct, Shadows, Plain };
 inline constexpr size_t kTraceStageCount = 5;
 /// Stages between them that trace none: one text for all back ends.
-enum class PointStage { Shade, Choose };
-inline constexpr size_t kPointStageCount = 2;
+enum class PointStage { Shade, Choose, Sort };
+inline constexpr size_t kPointStageCount = 3;
 
 /// What a dispatch binds.
 struct StageInput {

@@ -166,6 +166,7 @@ const TracedView& TraceRenderer::prepareView(const FrameCommands& frame, const S
     view.frame.looks = buffers.looks.address();
     view.frame.pixels = buffers.pixels.address();
     view.frame.shadowRays = buffers.shadowRays.address();
+    view.frame.shadowBins = buffers.shadowBins.address();
     view.frame.shadowOrder = buffers.shadowOrder.address();
     view.frame.irradiance = buffers.irradiance.address();
     view.frame.ambientL = buffers.ambient.address();

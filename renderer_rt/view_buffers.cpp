@@ -33,6 +33,7 @@ ViewBuffers::ViewBuffers(Device& device, const VkRect2D& viewArea, VkExtent2D tr
     , looks(makeViewBuffer(device, extent, sizeof(RtLook), "looks"))
     , pixels(makeViewBuffer(device, extent, sizeof(RtPixel), "pixels"))
     , shadowRays(makeViewBuffer(device, extent, sizeof(RtShadowRay), "shadow rays"))
+    , shadowBins(makeViewBuffer(device, extent, sizeof(uint32_t), "shadow bins"))
     , shadowOrder(makeViewBuffer(device, wholeTiles(extent), sizeof(uint32_t), "shadow order"))
     , irradiance(makeViewBuffer(device, extent, sizeof(vec4), "irradiance"))
     , ambient(makeViewBuffer(device, extent, sizeof(vec4), "ambient"))

@@ -53,7 +53,7 @@ struct SumBuffers {
 struct ViewBuffers {
     VkRect2D area{};     ///< on the target
     VkExtent2D extent{}; ///< of what is traced, pixels
-    Buffer looks, pixels, shadowRays, shadowOrder, irradiance, ambient, radiance, picture;
+    Buffer looks, pixels, shadowRays, shadowBins, shadowOrder, irradiance, ambient, radiance, picture;
     ViewMotion motion;
     std::unique_ptr<GuideBuffers> guides; ///< null: there is no history of any kind
     std::unique_ptr<Denoiser> denoiser;   ///< null: none

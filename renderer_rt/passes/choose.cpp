@@ -9,7 +9,7 @@ void addChoose(FrameGraph& graph, ViewResources& resources, const ViewWork& work
         [&](PassBuilder& pass) {
             pass.read(resources.pixels, access::kComputeRead);
             resources.shadowRays = pass.write(resources.shadowRays, access::kComputeWrite);
-            resources.shadowOrder = pass.write(resources.shadowOrder, access::kComputeWrite);
+            resources.shadowBins = pass.write(resources.shadowBins, access::kComputeWrite);
             resources.irradiance = pass.write(resources.irradiance, access::kComputeWrite);
             resources.ambient = pass.write(resources.ambient, access::kComputeWrite);
         },

@@ -12,6 +12,7 @@ ViewResources importView(FrameGraph& graph, ViewBuffers& buffers) {
     resources.radiance = graph.importBuffer("radiance", buffers.radiance);
     resources.picture = graph.importBuffer("picture", buffers.picture);
     resources.shadowRays = graph.importBuffer("shadow rays", buffers.shadowRays);
+    resources.shadowBins = graph.importBuffer("shadow bins", buffers.shadowBins);
     resources.shadowOrder = graph.importBuffer("shadow order", buffers.shadowOrder);
     if (buffers.sums) {
         resources.sums = graph.importBuffer("sums", buffers.sums->sums);

@@ -25,7 +25,8 @@ struct ViewResources {
     BufferId pixels;                    ///< RtPixel[]
     BufferId guides, previousGuides;    ///< RtGuide[], if there is a history
     BufferId pasts;                     ///< RtPast[], likewise
-    BufferId shadowRays, shadowOrder;   ///< RtShadowRay[] and lists of them
+    BufferId shadowRays;                ///< RtShadowRay[]
+    BufferId shadowBins, shadowOrder;   ///< uint[]: places of their lights, and lists of the rays by these
     BufferId irradiance;                ///< vec4[]: direct light
     BufferId ambient;                   ///< vec4[]
     BufferId lighting;                  ///< vec4[]: irradiance, or what the denoiser made of it
@@ -64,9 +65,11 @@ void addPrimary(FrameGraph& graph, ViewResources& resources, const ViewWork& wor
 void addPlain(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
 /// "choose": one light a pixel to unshadowed irradiance and a shadow ray.
 void addChoose(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
-/// "shadows": those rays take irradiance away.
+/// "sort": lists those rays by light.
+void addSort(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
+/// "shadows": the rays take irradiance away.
 void addShadows(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
-/// "direct": all lights, or several choices a pixel, to irradiance, in place of the two.
+/// "direct": all lights, or several choices a pixel, to irradiance, in place of the three.
 void addDirect(FrameGraph& graph, ViewResources& resources, const ViewWork& work);
 struct ExposureStep {
     bool first = false;  ///< nothing is known of the view yet

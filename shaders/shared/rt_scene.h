@@ -174,6 +174,7 @@ struct RtFrame {
     SHARED_ADDRESS looks; // RtLook[]
     SHARED_ADDRESS pixels;
     SHARED_ADDRESS shadowRays;  // RtShadowRay[]
+    SHARED_ADDRESS shadowBins;  // uint[], one a pixel: the ray's place among lights, kNoShadowRay
     SHARED_ADDRESS shadowOrder; // uint[]: kShadowTilePixels a tile: numbers of its pixels with a ray, by light
     SHARED_ADDRESS irradiance; // vec4[]: traced L (1.0 = irradiance 63.75), one a pixel
     SHARED_ADDRESS ambientL;   // vec4[]: L of the light grid, without noise

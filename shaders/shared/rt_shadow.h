@@ -5,12 +5,12 @@
 SHARED_BEGIN
 
 // Rays are listed in tiles of this side, pixels, in the order of their lights.
-SHARED_CONST kShadowTile = 32u;
+SHARED_CONST kShadowTile = 64u;
 SHARED_CONST kShadowTilePixels = kShadowTile * kShadowTile;
-// Work groups of the stage that chooses: one a tile, of this side, each invocation for one pixel of each quarter.
-SHARED_CONST kChooseGroup = 16u;
+// Work groups of the stage that sorts: one a tile, of this side; an invocation takes one pixel of each of its blocks.
+SHARED_CONST kSortGroup = 16u;
 // Bins that a tile's rays are sorted into, one an invocation.
-SHARED_CONST kShadowBins = kChooseGroup * kChooseGroup;
+SHARED_CONST kShadowBins = kSortGroup * kSortGroup;
 
 // One a pixel, row by row; read where a tile's list names its pixel. A GPU's sector of memory.
 struct RtShadowRay {
@@ -20,7 +20,7 @@ struct RtShadowRay {
     uint fromSky;   // 1: it must end on a sky
 };
 
-// In a tile's list: a place that has no ray.
+// Of a pixel without a ray, and of a place in a tile's list that has none.
 SHARED_CONST kNoShadowRay = 0xffffffffu;
 
 SHARED_END
