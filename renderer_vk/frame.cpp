@@ -2,6 +2,7 @@
 
 #include "renderer_vk/gpu_renderer.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include "renderer_vk/anaglyph.hpp"
@@ -9,6 +10,11 @@
 namespace q3rt {
 
 namespace {
+
+bool drawsWorld(const FrameCommand& command) {
+    const auto* scene = std::get_if<SceneView>(&command);
+    return scene && (scene->flags & viewFlag::kNoWorldModel) == 0;
+}
 
 bool startsPass(const FrameCommand& command) {
     return std::holds_alternative<SceneView>(command) || std::holds_alternative<Eye>(command);
@@ -47,10 +53,10 @@ void GpuRenderer::drawFrame(const FrameCommands& frame, FrameImage* capture) {
     for (size_t i = 0; i < commands.size();) {
         FrameTargets& eye = leftEye && m_eye == Eye::Left ? *leftEye : targets;
         if (const auto* scene = std::get_if<SceneView>(&commands[i])) {
-            if (scene->flags & viewFlag::kNoWorldModel)
-                m_raster->addView(graph, eye, frame, *scene, drawListSettings(), "hud scene");
-            else
+            if (drawsWorld(commands[i]))
                 drawWorldView(graph, eye, frame, *scene);
+            else
+                m_raster->addView(graph, eye, frame, *scene, drawListSettings(), "hud scene");
             ++i;
             continue;
         }
@@ -70,7 +76,9 @@ void GpuRenderer::drawFrame(const FrameCommands& frame, FrameImage* capture) {
     m_context->addPresent(graph, targets.color);
 
     m_raster->uploadFrame();
-    m_context->endFrame(graph, capture);
+    // In play the next frame is near; a picture of loading may stand for seconds.
+    const bool inPlay = std::ranges::any_of(commands, drawsWorld);
+    m_context->endFrame(graph, capture, inPlay ? Show::WithNextFrame : Show::AtOnce);
     onGpuFrameEnd();
 }
 

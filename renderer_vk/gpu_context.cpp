@@ -180,9 +180,9 @@ void GpuContext::addPresent(FrameGraph& graph, ImageId target) {
         [](PassContext&) {});
 }
 
-void GpuContext::endFrame(FrameGraph& graph, FrameImage* capture) {
+void GpuContext::endFrame(FrameGraph& graph, FrameImage* capture, Show show) {
     m_executor->run(graph, *m_ring);
-    m_ring->submit(m_swapchain && m_swapchain->acquired() ? m_swapchain.get() : nullptr);
+    m_ring->submit(m_swapchain.get(), show);
     if (!capture) return;
     const std::vector<std::byte> rgba = readImage(*m_device, m_main.color);
     capture->width = static_cast<int>(m_extent.width);

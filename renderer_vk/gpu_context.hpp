@@ -63,7 +63,7 @@ class GpuContext {
     /// Adds the pass that shows the target in the window; nothing when headless or minimised.
     void addPresent(FrameGraph& graph, ImageId target);
     /// Runs the graph and submits. Fills `capture` if not null (waits for the frame).
-    void endFrame(FrameGraph& graph, FrameImage* capture);
+    void endFrame(FrameGraph& graph, FrameImage* capture, Show show);
     /// After an error between beginFrame() and endFrame().
     void abandonFrame();
     /// Applies changes of r_fullscreen and the like between frames.

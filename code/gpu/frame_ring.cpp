@@ -56,7 +56,7 @@ VkCommandBuffer FrameRing::begin() {
     return slot.commands;
 }
 
-void FrameRing::submit(Swapchain* swapchain) {
+void FrameRing::submit(Swapchain* swapchain, Show show) {
     if (!m_recording) throw UsageError("FrameRing::submit is called outside a frame");
     Slot& slot = m_slots[m_slot];
     const bool presents = swapchain && swapchain->acquired();
@@ -81,10 +81,11 @@ void FrameRing::submit(Swapchain* swapchain) {
     }
     m_recording = false;
     m_device.m_frameOpen = false;
-    slot.frame = 0; // if the submission fails, nothing will ever signal the fence
+    slot.frame = 0;                            // if the submission fails, nothing will ever signal the fence
+    if (swapchain) swapchain->showSubmitted(); // before: the driver would wait for these commands too
     vkCheck(vkQueueSubmit2KHR(m_device.queue(), 1, &submit, slot.fence), "vkQueueSubmit2KHR");
     slot.frame = ++m_device.m_framesSubmitted;
-    if (presents) swapchain->present();
+    if (presents) swapchain->noteSubmitted(show);
 }
 
 void FrameRing::abandon() {

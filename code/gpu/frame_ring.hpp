@@ -11,6 +11,7 @@
 namespace q3rt {
 
 class Swapchain;
+enum class Show;
 
 class FrameRing {
   public:
@@ -22,7 +23,8 @@ class FrameRing {
     /// Waits for the slot's last frame, retires what it used, begins the command buffer.
     VkCommandBuffer begin();
     /// Ends and submits. With a swapchain whose image was acquired this frame: waits for the image, presents it.
-    void submit(Swapchain* swapchain = nullptr);
+    void submit() { submit(nullptr, Show{}); }
+    void submit(Swapchain* swapchain, Show show);
     /// Throws the begun commands away (after an error).
     void abandon();
     /// Waits until frame `number` (see frameNumber()) is done, for readback.

@@ -151,6 +151,7 @@ void Swapchain::create(VkExtent2D extent) {
     }
     m_handle = made;
     fetchImages();
+    m_mayHoldBack = m_device.capabilities().software && m_images.size() > surface.minImageCount;
     m_stale = false;
 }
 
@@ -180,6 +181,7 @@ void Swapchain::destroyImages() {
     m_views.clear();
     m_drawnSemaphores.clear();
     m_images.clear();
+    m_submitted.reset();
 }
 
 bool Swapchain::acquire(VkExtent2D extent) {
@@ -208,15 +210,23 @@ bool Swapchain::acquire(VkExtent2D extent) {
     return false;
 }
 
-void Swapchain::present() {
+void Swapchain::noteSubmitted(Show show) {
     m_acquired = false;
-    const VkSemaphore waitFor = drawn();
+    m_submitted = m_current;
+    if (show == Show::AtOnce || !m_mayHoldBack) showSubmitted();
+}
+
+void Swapchain::showSubmitted() {
+    if (!m_submitted) return;
+    const uint32_t image = *m_submitted;
+    m_submitted.reset();
+    const VkSemaphore waitFor = m_drawnSemaphores[image];
     VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
     info.waitSemaphoreCount = 1;
     info.pWaitSemaphores = &waitFor;
     info.swapchainCount = 1;
     info.pSwapchains = &m_handle;
-    info.pImageIndices = &m_current;
+    info.pImageIndices = &image;
     const VkResult result = vkQueuePresentKHR(m_device.queue(), &info);
     if (result == VK_ERROR_SURFACE_LOST_KHR)
         m_lost = true;

@@ -1,6 +1,7 @@
 #pragma once
 // Presentation to the device's surface.
 
+#include <optional>
 #include <vector>
 
 #include "gpu/vulkan_api.hpp"
@@ -8,6 +9,14 @@
 namespace q3rt {
 
 class Device;
+
+/// When a submitted frame is handed to the display.
+enum class Show {
+    AtOnce,
+    /// Just before the next frame is submitted, where handing over waits for the drawing (a software driver): the
+    /// processor prepares that frame meanwhile. Only for frames that another one is sure to follow.
+    WithNextFrame
+};
 
 class Swapchain {
   public:
@@ -43,7 +52,8 @@ class Swapchain {
     void choosePresentMode(int swapInterval);
     VkSemaphore imageReady() const { return m_readySemaphores[m_readyIndex]; }
     VkSemaphore drawn() const { return m_drawnSemaphores[m_current]; }
-    void present();
+    void noteSubmitted(Show show);
+    void showSubmitted();
 
     Device& m_device;
     VkSwapchainKHR m_handle = VK_NULL_HANDLE;
@@ -58,6 +68,8 @@ class Swapchain {
     std::vector<VkSemaphore> m_drawnSemaphores; // one an image
     uint32_t m_readyIndex = 0;
     uint32_t m_current = 0;
+    std::optional<uint32_t> m_submitted; // image that is drawn and not yet handed over
+    bool m_mayHoldBack = false;          // one image may be held while the next is acquired, and it pays
     bool m_acquired = false;
     bool m_lost = false;  // so is its surface
     bool m_stale = false; // out of date or suboptimal: made anew at the next acquire()

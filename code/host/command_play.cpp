@@ -47,7 +47,6 @@ class PlayReport {
             return;
         }
         m_times.push_back(frame.wallMs);
-        m_lastStats = frame.text;
         if (frame.picture.width > 0 && m_folder.isWanted()) {
             writePng(m_folder.path() / formatText("%08d.png", frame.frame), frame.picture);
             ++m_pictures;
@@ -57,11 +56,11 @@ class PlayReport {
     }
     void print(bool json) const {
         const TimeSummary times = summarizeTimes(m_times);
-        const auto stats = nlohmann::ordered_json::parse(m_lastStats, nullptr, false);
-        const std::string backend = stats.is_object() ? stats.value("backend", "") : "";
-        const nlohmann::ordered_json line = {{"frames", times.count}, {"median_ms", times.medianMs},
-                                             {"p99_ms", times.p99Ms}, {"device", m_device},
-                                             {"backend", backend},    {"pictures", m_pictures}};
+        const nlohmann::ordered_json line = {{"frames", times.count},
+                                             {"median_ms", times.medianMs},
+                                             {"p99_ms", times.p99Ms},
+                                             {"device", m_device},
+                                             {"pictures", m_pictures}};
         if (m_folder.isWanted()) {
             const std::string text = line.dump() + "\n";
             writeFileBytes(m_folder.path() / "summary.json", std::as_bytes(std::span(text)));
@@ -69,9 +68,8 @@ class PlayReport {
         if (json)
             std::printf("%s\n", line.dump().c_str());
         else
-            std::printf("%zu frames, median %.2f ms, 99th percentile %.2f ms, device %s%s%s, %zu pictures%s%s\n",
-                        times.count, times.medianMs, times.p99Ms, m_device.c_str(),
-                        backend.empty() ? "" : ", back end ", backend.c_str(), m_pictures,
+            std::printf("%zu frames, median %.2f ms, 99th percentile %.2f ms, device %s, %zu pictures%s%s\n",
+                        times.count, times.medianMs, times.p99Ms, m_device.c_str(), m_pictures,
                         m_folder.isWanted() ? " in " : "", m_folder.path().c_str());
     }
     size_t frameCount() const { return m_times.size(); }
@@ -81,7 +79,7 @@ class PlayReport {
     LineFile m_stats;
     Progress m_progress;
     std::vector<double> m_times;
-    std::string m_device, m_lastStats;
+    std::string m_device;
     size_t m_pictures = 0;
 };
 
@@ -98,6 +96,7 @@ void runPlay(PlayArguments& a) {
     run.timed = run.timed || run.headless;
     // What only the interposer can do or tell.
     run.watched = run.headless || !a.out.empty() || !a.stats.empty() || run.frameLimit > 0 || a.json;
+    run.wantsStats = !a.stats.empty();
     run.pictureEvery = a.out.empty() ? 0 : a.every;
     size_t expected = run.demo.snapshots;
     if (run.frameLimit > 0) expected = static_cast<size_t>(run.frameLimit);

@@ -31,6 +31,7 @@ struct EngineRun {
     CvarList cvars;
     /// Through the interposer: reports frames and may record. Otherwise the engine loads the module itself.
     bool watched = false;
+    bool wantsStats = false; ///< from the module; a software driver waits for the drawing where it is timed
     int pictureEvery = 0, frameLimit = 0; ///< 0: none
     std::filesystem::path recordTo;       ///< empty: no recording
     int recordFirst = 0, recordCount = 0; ///< world frames; count 0: all

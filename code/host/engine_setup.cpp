@@ -223,6 +223,7 @@ EngineCommand prepareEngine(const EngineRun& run, const fs::path& home) {
         environment.emplace_back(kRecordCount, std::to_string(run.recordCount));
     }
     environment.emplace_back(kWatchEvery, std::to_string(run.pictureEvery));
+    environment.emplace_back(kWatchStats, run.wantsStats ? "1" : "0");
     environment.emplace_back(kWatchFrames, std::to_string(run.frameLimit));
     return command;
 }

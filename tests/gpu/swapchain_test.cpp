@@ -48,7 +48,7 @@ TEST_F(SwapchainTest, FramesArePresentedThroughNewSizesAndALostSurface) {
                 });
             addPresent(graph, picture, swapchain);
             executor.run(graph, ring);
-            ring.submit(&swapchain);
+            ring.submit(&swapchain, frame % 2 == 0 ? Show::WithNextFrame : Show::AtOnce);
             EXPECT_FALSE(swapchain.acquired());
         }
     }

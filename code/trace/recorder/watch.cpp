@@ -73,7 +73,7 @@ void watchRegistered(const glconfig_t& config) {
     if (!watch) return;
     watch->width = config.vidWidth;
     watch->height = config.vidHeight;
-    recording.engine.Cvar_Set("q3rt_wantStats", "1");
+    if (numberFrom(kWatchStats) != 0) recording.engine.Cvar_Set("q3rt_wantStats", "1");
     WatchMessage message;
     message.frame = WatchMessage::kStarted;
     sendMessage(message, config.renderer_string);

@@ -24,6 +24,7 @@ inline constexpr const char* kRecordingEnded = "recording ended: ";
 /// Environment of the interposer. All but the socket may be absent.
 inline constexpr const char* kWatchSocket = "Q3RT_WATCH_FD";
 inline constexpr const char* kWatchEvery = "Q3RT_WATCH_EVERY";   ///< a picture every so many world frames
+inline constexpr const char* kWatchStats = "Q3RT_WATCH_STATS";   ///< 1: the module is asked for its statistics
 inline constexpr const char* kWatchFrames = "Q3RT_WATCH_FRAMES"; ///< the engine is told to quit after so many
 inline constexpr const char* kRecordInner = "Q3RT_RECORD_INNER"; ///< module to stand around
 inline constexpr const char* kRecordOut = "Q3RT_RECORD_OUT";     ///< recording to write
