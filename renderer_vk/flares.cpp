@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/busy_frame.hpp"
+
 namespace q3rt {
 
 namespace {
@@ -14,20 +16,28 @@ constexpr float kDefaultCoefficient = 150;
 
 } // namespace
 
+FlareFades::FlareFades() { m_states.reserve(busyFrame::kSmall); }
+
 void FlareFades::beginFrame(uint64_t frame) {
     m_frame = frame;
-    std::erase_if(m_states, [&](const auto& entry) { return entry.second.lastFrame + 1 < frame; });
+    std::erase_if(m_states, [&](const State& state) { return state.lastFrame + 1 < frame; });
+}
+
+/// The first that is not before `key`.
+std::vector<FlareFades::State>::iterator FlareFades::find(const FlareKey& key) {
+    return std::ranges::lower_bound(m_states, key, {}, &State::key);
 }
 
 void FlareFades::answer(const FlareKey& key, uint64_t asked, bool seen) {
-    const auto found = m_states.find(key);
-    if (found != m_states.end() && asked >= found->second.firstFrame) found->second.answer = seen;
+    const auto found = find(key);
+    if (found != m_states.end() && found->key == key && asked >= found->firstFrame) found->answer = seen;
 }
 
 float FlareFades::strength(const FlareKey& key, int timeMs, float fadesPerSecond) {
-    const auto [entry, fresh] = m_states.try_emplace(key);
-    State& state = entry->second;
-    if (fresh) state = {m_frame, m_frame, false, false, timeMs - kLongAgoMs};
+    auto found = find(key);
+    if (found == m_states.end() || found->key != key)
+        found = m_states.insert(found, {key, m_frame, m_frame, false, false, timeMs - kLongAgoMs});
+    State& state = *found;
     state.lastFrame = m_frame;
     if (state.answer != state.seen) {
         state.seen = state.answer;

@@ -4,8 +4,8 @@
 // that frame's slot comes round; until then the last answer holds.
 
 #include <compare>
-#include <map>
 #include <optional>
+#include <vector>
 
 #include "renderer_vk/view_setup.hpp"
 
@@ -21,6 +21,7 @@ struct FlareKey {
 
 class FlareFades {
   public:
+    FlareFades();
     void beginFrame(uint64_t frame);
     /// What frame `asked` found out.
     void answer(const FlareKey& key, uint64_t asked, bool seen);
@@ -30,11 +31,13 @@ class FlareFades {
 
   private:
     struct State {
+        FlareKey key;
         uint64_t firstFrame = 0, lastFrame = 0; ///< without a gap
         bool answer = false, seen = false;
         int changedMs = 0;
     };
-    std::map<FlareKey, State> m_states;
+    std::vector<State>::iterator find(const FlareKey& key);
+    std::vector<State> m_states; ///< by key; a list, which keeps its memory
     uint64_t m_frame = 0;
 };
 

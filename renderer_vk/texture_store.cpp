@@ -57,30 +57,33 @@ void TextureStore::create(const Texture& texture, Entry& entry, Uploader& upload
 void TextureStore::follow(TextureLibrary& library, const TextureFilter& filter, bool keepTexels, Uploader& uploader) {
     const bool filterChanged = !(filter == m_filter);
     m_filter = filter;
-    for (TextureId id = 0; id < library.count(); ++id) {
+    const auto known = static_cast<TextureId>(m_entries.size());
+    for (TextureId id = known; id < library.count(); ++id) {
         const Texture& texture = library.get(id);
-        if (id == m_entries.size()) {
-            m_entries.emplace_back();
-            create(texture, m_entries[id], uploader);
-            if (!keepTexels) library.dropTexels(id);
-            if (m_bindless->add(m_entries[id].image->view(), samplerOf(texture)) != id)
-                throw DeviceError("texture slots are out of order: restart the renderer with vid_restart");
-            continue;
-        }
-        Entry& entry = m_entries[id];
-        const MipLevel& base = texture.levels.front();
-        const VkExtent2D extent = {static_cast<uint32_t>(base.width), static_cast<uint32_t>(base.height)};
-        const bool sameSize =
-            entry.image->extent().width == extent.width && entry.image->extent().height == extent.height;
-        if (entry.version != texture.version && sameSize) {
-            uploader.uploadRegion(*entry.image, {0, 0}, extent, std::as_bytes(std::span(base.rgba)));
-            entry.version = texture.version;
-        } else if (entry.version != texture.version) {
-            create(texture, entry, uploader);
-            m_bindless->replace(id, entry.image->view(), samplerOf(texture));
-        } else if (filterChanged) {
-            m_bindless->replace(id, entry.image->view(), samplerOf(texture));
-        }
+        m_entries.emplace_back();
+        create(texture, m_entries[id], uploader);
+        if (!keepTexels) library.dropTexels(id);
+        if (m_bindless->add(m_entries[id].image->view(), samplerOf(texture)) != id)
+            throw DeviceError("texture slots are out of order: restart the renderer with vid_restart");
+    }
+    // Pixels change in scratch slots alone.
+    for (TextureId id = builtinTexture::kScratch0; id < std::min(builtinTexture::kFirstFree, known); ++id)
+        followPixels(library.get(id), id, uploader);
+    for (TextureId id = 0; filterChanged && id < known; ++id)
+        m_bindless->replace(id, m_entries[id].image->view(), samplerOf(library.get(id)));
+}
+
+void TextureStore::followPixels(const Texture& texture, TextureId id, Uploader& uploader) {
+    Entry& entry = m_entries[id];
+    if (entry.version == texture.version) return;
+    const MipLevel& base = texture.levels.front();
+    const VkExtent2D extent = {static_cast<uint32_t>(base.width), static_cast<uint32_t>(base.height)};
+    if (entry.image->extent().width == extent.width && entry.image->extent().height == extent.height) {
+        uploader.uploadRegion(*entry.image, {0, 0}, extent, std::as_bytes(std::span(base.rgba)));
+        entry.version = texture.version;
+    } else {
+        create(texture, entry, uploader);
+        m_bindless->replace(id, entry.image->view(), samplerOf(texture));
     }
 }
 

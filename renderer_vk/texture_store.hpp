@@ -38,6 +38,7 @@ class TextureStore {
     };
     VkSampler samplerOf(const Texture& texture) const;
     void create(const Texture& texture, Entry& entry, Uploader& uploader);
+    void followPixels(const Texture& texture, TextureId id, Uploader& uploader);
 
     Device& m_device;
     TextureFilter m_filter;

@@ -1,6 +1,7 @@
 #include "gpu/descriptors.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 #include "gpu/device.hpp"
@@ -10,11 +11,19 @@ namespace {
 
 // Sets a pool holds at least; each further pool of an arena holds twice as many.
 constexpr uint32_t kFirstPoolSets = 64;
+// Resets that found a set unused, after which all are freed: those of layouts that are gone never come again.
+constexpr int kWastefulResets = 240;
+
+uint64_t nextLayoutNumber() {
+    static std::atomic<uint64_t> last{0};
+    return ++last;
+}
 
 } // namespace
 
 DescriptorLayout::DescriptorLayout(Device& device, std::span<const Binding> bindings, const std::string& name)
     : m_device(&device)
+    , m_number(nextLayoutNumber())
     , m_bindings(bindings.begin(), bindings.end()) {
     std::vector<VkDescriptorSetLayoutBinding> list;
     for (const Binding& binding : bindings)
@@ -31,6 +40,7 @@ DescriptorLayout& DescriptorLayout::operator=(DescriptorLayout&& other) noexcept
     release();
     m_device = std::exchange(other.m_device, nullptr);
     m_handle = std::exchange(other.m_handle, VK_NULL_HANDLE);
+    m_number = other.m_number;
     m_bindings = std::move(other.m_bindings);
     return *this;
 }
@@ -114,30 +124,55 @@ void DescriptorArena::addPool(const DescriptorLayout& layout) {
     m_pools.push_back(pool);
 }
 
+DescriptorArena::Made* DescriptorArena::findFree(const DescriptorLayout& layout) {
+    if (m_takenSets == m_made.size()) return nullptr;
+    for (size_t i = 0; i < m_made.size(); ++i) {
+        Made& made = m_made[(m_next + i) % m_made.size()];
+        if (!made.taken && made.layout == layout.number()) return &made;
+    }
+    return nullptr;
+}
+
 VkDescriptorSet DescriptorArena::make(const DescriptorLayout& layout, std::span<const BoundResource> resources) {
+    Made* made = findFree(layout);
+    if (!made) made = &m_made.emplace_back(Made{allocate(layout), layout.number(), false});
+    made->taken = true;
+    m_next = static_cast<size_t>(made - m_made.data()) + 1;
+    ++m_takenSets;
+    writeDescriptors(*m_device, made->set, resources);
+    return made->set;
+}
+
+VkDescriptorSet DescriptorArena::allocate(const DescriptorLayout& layout) {
     const VkDescriptorSetLayout handle = layout.handle();
-    VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
-    allocate.descriptorSetCount = 1;
-    allocate.pSetLayouts = &handle;
+    VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+    info.descriptorSetCount = 1;
+    info.pSetLayouts = &handle;
     VkDescriptorSet set = VK_NULL_HANDLE;
     for (;; ++m_current) {
         const bool fresh = m_current == m_pools.size();
         if (fresh) addPool(layout);
-        allocate.descriptorPool = m_pools[m_current];
-        const VkResult result = vkAllocateDescriptorSets(m_device->handle(), &allocate, &set);
+        info.descriptorPool = m_pools[m_current];
+        const VkResult result = vkAllocateDescriptorSets(m_device->handle(), &info, &set);
         if (result == VK_SUCCESS) break;
         // A full pool is passed over; a fresh one that fails is an error.
         const bool full = result == VK_ERROR_OUT_OF_POOL_MEMORY || result == VK_ERROR_FRAGMENTED_POOL;
         if (fresh || !full) vkCheck(result, "vkAllocateDescriptorSets");
     }
-    writeDescriptors(*m_device, set, resources);
     return set;
 }
 
 void DescriptorArena::reset() {
+    m_wastefulResets = m_takenSets < m_made.size() ? m_wastefulResets + 1 : 0;
+    for (Made& made : m_made)
+        made.taken = false;
+    m_next = m_takenSets = 0;
+    if (m_wastefulResets < kWastefulResets) return;
+    m_wastefulResets = 0;
+    m_made.clear();
+    m_current = 0;
     for (const VkDescriptorPool pool : m_pools)
         vkCheck(vkResetDescriptorPool(m_device->handle(), pool, 0), "vkResetDescriptorPool");
-    m_current = 0;
 }
 
 } // namespace q3rt

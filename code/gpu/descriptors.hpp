@@ -30,11 +30,13 @@ class DescriptorLayout {
     DescriptorLayout& operator=(DescriptorLayout&& other) noexcept;
     VkDescriptorSetLayout handle() const { return m_handle; }
     const std::vector<Binding>& bindings() const { return m_bindings; }
+    uint64_t number() const { return m_number; } // of no other layout, ever: handles come again
 
   private:
     void release();
     Device* m_device = nullptr;
     VkDescriptorSetLayout m_handle = VK_NULL_HANDLE;
+    uint64_t m_number = 0;
     std::vector<Binding> m_bindings;
 };
 
@@ -56,8 +58,9 @@ BoundResource bindSampledImage(uint32_t slot, VkImageView view, VkSampler sample
                                VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 BoundResource bindAccelerationStructure(uint32_t slot, VkAccelerationStructureKHR acceleration);
 
-/// Makes sets; grows pool by pool. reset() frees all its sets at once: the frame's arena (FrameRing::descriptors())
-/// does that when its slot comes round; an arena of one's own holds sets for good.
+/// Makes sets; grows pool by pool. reset() takes all its sets back, to be written anew for the same layouts: the
+/// frame's arena (FrameRing::descriptors()) does that when its slot comes round; an arena of one's own holds sets for
+/// good.
 class DescriptorArena {
   public:
     explicit DescriptorArena(Device& device)
@@ -72,10 +75,21 @@ class DescriptorArena {
     void reset();
 
   private:
+    struct Made {
+        VkDescriptorSet set;
+        uint64_t layout;
+        bool taken;
+    };
+    Made* findFree(const DescriptorLayout& layout);
+    VkDescriptorSet allocate(const DescriptorLayout& layout);
     void addPool(const DescriptorLayout& layout);
     Device* m_device;
-    std::vector<VkDescriptorPool> m_pools; // the first m_full + 1 are in use
+    std::vector<VkDescriptorPool> m_pools; // the first m_current + 1 are in use
     size_t m_current = 0;
+    std::vector<Made> m_made;
+    size_t m_next = 0;      // in m_made: frames ask for much the same sets in the same order
+    size_t m_takenSets = 0; // since the last reset
+    int m_wastefulResets = 0;
 };
 
 /// Writes resources into an existing set (not in use by the GPU, unless the binding allows it).
