@@ -13,7 +13,6 @@ namespace {
 
 constexpr float kBlackGrey = 0.0f;
 constexpr float kOpaqueSort = 3.0f;
-constexpr float kShadowVolumeSort = 14.0f;
 
 float wholeByte(float value) { return std::floor(std::clamp(value, 0.0f, 1.0f) * 255.0f) / 255.0f; }
 
@@ -201,6 +200,7 @@ void DrawListBuilder::appendBatch(ViewWork& work, size_t firstItem, size_t lastI
     batch.stages = m_stages.evaluate(id, record.stage);
     batch.fog = fogIndex(work, last.fog);
     batch.depthFirst = last.fromWorld && !work.view.portal && coversWhatIsBehind(material);
+    batch.erasesShadows = work.settings.geometry.shadows == Shadows::Volume && material.sort > kShadowVolumeSort;
     if (record.flags & entityFlag::kDepthHack) batch.depthRange = DepthRange::Weapon;
     constexpr uint32_t kUnlit = surfaceParm::kNoDlight | surfaceParm::kSky;
     if (material.sort <= 3 && (material.surfaceFlags & kUnlit) == 0) appendLights(work, batch, firstItem, lastItem);

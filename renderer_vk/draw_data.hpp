@@ -41,6 +41,7 @@ struct DrawBatch {
     OwnDraw own = OwnDraw::None; ///< draw with this state, not with the material's stages
     StageRange clouds;           ///< laid over a sky box in its pass
     bool depthFirst = false;     ///< its depth may be drawn before everything else of the view
+    bool erasesShadows = false;  ///< each pass counts down in the stencil
     VertexSource source = VertexSource::World;
     DepthRange depthRange = DepthRange::Normal;
     uint32_t entity = 0; ///< in FrameDrawData::entities

@@ -70,6 +70,7 @@ void DrawListBuilder::appendSun(ViewWork& work) {
     DrawBatch batch;
     batch.material = drawnId(work.settings.sun);
     batch.depthRange = DepthRange::Far;
+    batch.erasesShadows = work.settings.geometry.shadows == Shadows::Volume;
     batch.entity = entityIndex(work, 0);
     batch.stages = m_stages.evaluate(batch.material, work.geometry.entities[0].stage);
     appendSquare(work.out, work.view.eye.origin + direction * distance, right * half, up * half, batch);

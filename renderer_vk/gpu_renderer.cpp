@@ -72,7 +72,7 @@ void GpuRenderer::onWorldLoaded() {
 
 void GpuRenderer::onEndRegistration() {
     followTextures(true);
-    m_raster->warmPipelines(m_flare);
+    m_raster->warmPipelines(m_flare, m_sun);
     onGpuReady();
 }
 

@@ -170,6 +170,11 @@ StateKey shadowShadeKey() {
     return key;
 }
 
+StateKey erasingShadows(StateKey key) {
+    key.stencil = StencilUse::CountDown;
+    return key;
+}
+
 StateKey flareKey(const Stage& stage) {
     StateKey key = stageKey(stage, false);
     key.depthFunc = DepthFunc::Always;
@@ -258,7 +263,7 @@ const GraphicsPipeline& PipelineSet::find(const StateKey& key) {
 }
 
 std::vector<StateKey> PipelineSet::statesOf(const MaterialLibrary& materials, bool clipped, MaterialId flare,
-                                            bool mergeStages) const {
+                                            MaterialId sun, bool mergeStages) const {
     std::set<StateKey> states = {depthKey(), overlayKey(), shadowShadeKey(), flareTestKey()};
     for (const Stage& stage : materials.get(flare).stages)
         states.insert(flareKey(stage));
@@ -274,9 +279,16 @@ std::vector<StateKey> PipelineSet::statesOf(const MaterialLibrary& materials, bo
         const std::vector<Stage>& stages = material.stages;
         if (material.isSky && mergeStages) states.insert(skyBoxKey(false, stages));
         if (material.isSky && mergeStages && clipped) states.insert(skyBoxKey(true, stages));
-        for (const StagePass& pass : findStagePasses(stages, mergeStages)) {
-            states.insert(passKey(stages, pass, false));
-            if (clipped) states.insert(passKey(stages, pass, true));
+        const bool erases = material.sort > kShadowVolumeSort || i == sun;
+        const auto insert = [&](const StateKey& key) {
+            states.insert(key);
+            if (erases) states.insert(erasingShadows(key));
+        };
+        for (const bool clips : {false, true}) {
+            if (clips && !clipped) continue;
+            for (const StagePass& pass : findStagePasses(material, mergeStages))
+                insert(passKey(stages, pass, clips));
+            if (erases && (material.contentFlags & surfaceParm::kContentsFog) != 0) insert(fogKey(false, clips));
         }
     }
     return {states.begin(), states.end()};

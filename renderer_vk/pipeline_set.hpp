@@ -41,6 +41,8 @@ StateKey depthKey();
 StateKey shadowVolumeKey(bool up, bool clipped);
 /// Multiplies what lies in a shadow volume.
 StateKey shadowShadeKey();
+/// The same, and counts down in the stencil.
+StateKey erasingShadows(StateKey key);
 /// A stage of a flare: whatever its depth.
 StateKey flareKey(const Stage& stage);
 /// Asks whether a flare is seen.
@@ -61,7 +63,7 @@ class PipelineSet {
     void setGreyscale(float amount);
     /// Every state that drawing these materials needs; `clipped` also those for portal views, `flare` is that of
     /// flares.
-    std::vector<StateKey> statesOf(const MaterialLibrary& materials, bool clipped, MaterialId flare,
+    std::vector<StateKey> statesOf(const MaterialLibrary& materials, bool clipped, MaterialId flare, MaterialId sun,
                                    bool mergeStages) const;
     bool known(const StateKey& key) const { return m_pipelines.contains(key); }
     size_t size() const { return m_pipelines.size(); }

@@ -336,6 +336,7 @@ void RasterScene::recordDepth(VkCommandBuffer commands, const ViewDraw& view) {
 
 void RasterScene::recordEdges(VkCommandBuffer commands, const ViewDraw& view, DrawBatch batch) {
     batch.depthRange = DepthRange::Near;
+    batch.erasesShadows = false;
     RasterDraw constants{};
     constants.entity = batch.entity;
     constants.stage = m_tableStageCount + m_edgeStage;
@@ -345,7 +346,7 @@ void RasterScene::recordEdges(VkCommandBuffer commands, const ViewDraw& view, Dr
 const std::vector<StagePass>& RasterScene::stagePasses(MaterialId id) {
     while (m_stagePasses.size() <= id) {
         const auto next = static_cast<MaterialId>(m_stagePasses.size());
-        m_stagePasses.push_back(findStagePasses(m_materials->get(next).stages, m_mergeStages));
+        m_stagePasses.push_back(findStagePasses(m_materials->get(next), m_mergeStages));
     }
     return m_stagePasses[id];
 }
@@ -363,7 +364,8 @@ void RasterScene::recordBatch(VkCommandBuffer commands, const ViewDraw& view, co
         const Stage& first = material.stages[pass.firstStage];
         constants.stage = batch.stages.first + pass.firstStage;
         constants.layerStage = constants.stage + 1;
-        if (pass.stageCount == 1 && changesNothing(first, m_stages->states()[constants.stage])) continue;
+        const bool mayBeLeftOut = pass.stageCount == 1 && !batch.erasesShadows;
+        if (mayBeLeftOut && changesNothing(first, m_stages->states()[constants.stage])) continue;
         constants.useFog = batch.fog >= 0 && first.fogFade != FogFade::None ? 1 : 0;
         draw(commands, passKey(material.stages, pass, view.clipped), constants, batch, material.polygonOffset,
              material.cull, view);
@@ -440,7 +442,7 @@ void RasterScene::recordOwn(VkCommandBuffer commands, const ViewDraw& view, cons
 
 void RasterScene::draw(VkCommandBuffer commands, const StateKey& key, const RasterDraw& constants,
                        const DrawBatch& batch, bool polygonOffset, CullMode cull, const ViewDraw& view) {
-    const GraphicsPipeline& pipeline = m_pipelines.find(key);
+    const GraphicsPipeline& pipeline = m_pipelines.find(batch.erasesShadows ? erasingShadows(key) : key);
     if (m_bound->pipeline != &pipeline) {
         pipeline.bind(commands);
         if (!m_bound->pipeline) pipeline.bindSets(commands, {m_frameSet, m_context.textures().set()});

@@ -39,7 +39,7 @@ class RasterScene {
     void setWorld(const World* world);
     void dropContent();
     /// Creates and warms the pipelines of all materials known now.
-    void warmPipelines(MaterialId flare);
+    void warmPipelines(MaterialId flare, MaterialId sun);
 
     void beginFrame(const DrawListSettings& settings);
     /// A pass "clear" that fills the targets: r_clear.

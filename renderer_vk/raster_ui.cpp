@@ -110,11 +110,11 @@ void RasterScene::addUi(FrameGraph& graph, FrameTargets& targets, std::span<cons
     recordPass(graph, targets, "ui", static_cast<uint32_t>(m_data.views.size()) - 1, 1);
 }
 
-void RasterScene::warmPipelines(MaterialId flare) {
+void RasterScene::warmPipelines(MaterialId flare, MaterialId sun) {
     if (!m_materials) return;
     if (m_materials->count() > 0) stagePasses(static_cast<MaterialId>(m_materials->count() - 1));
     std::vector<StateKey> fresh;
-    for (const StateKey& key : m_pipelines.statesOf(*m_materials, m_worldHasPortals, flare, m_mergeStages))
+    for (const StateKey& key : m_pipelines.statesOf(*m_materials, m_worldHasPortals, flare, sun, m_mergeStages))
         if (!m_pipelines.known(key)) fresh.push_back(key);
     if (fresh.empty()) return;
     logLine(LogLevel::Developer, "%zu raster pipelines to compile", fresh.size());

@@ -41,6 +41,10 @@ std::vector<StagePass> findStagePasses(const std::vector<Stage>& stages, bool me
     return passes;
 }
 
+std::vector<StagePass> findStagePasses(const Material& material, bool merge) {
+    return findStagePasses(material.stages, merge && material.sort <= kShadowVolumeSort);
+}
+
 std::optional<LayerStates> findCloudLayers(const std::vector<Stage>& clouds) {
     if (clouds.empty() || clouds.size() >= kMaxLayers) return std::nullopt;
     LayerStates layers;

@@ -12,6 +12,10 @@
 
 namespace q3rt {
 
+/// Shadow volumes are drawn after surfaces of this shader sort. Each pass of a later one takes from their count where
+/// it is seen: the original leaves the stencil test on.
+inline constexpr float kShadowVolumeSort = 14.0f;
+
 /// Stages that a pass holds at most, the first among them.
 inline constexpr uint32_t kMaxLayers = 4;
 
@@ -35,6 +39,8 @@ struct StagePass {
 /// All stages in their order. `merge`: blended ones are laid over the opaque one before them in its pass wherever the
 /// picture stays the same, each rounded to bytes as the frame buffer would.
 std::vector<StagePass> findStagePasses(const std::vector<Stage>& stages, bool merge);
+/// Of a material: what takes from the count of shadow volumes keeps its passes.
+std::vector<StagePass> findStagePasses(const Material& material, bool merge);
 
 /// Clouds over a sky's box, which is drawn from the same triangles: their layers if one pass may draw both.
 std::optional<LayerStates> findCloudLayers(const std::vector<Stage>& clouds);

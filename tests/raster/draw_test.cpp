@@ -167,5 +167,53 @@ TEST(RasterDraw, SamplesAndScaleGiveTheSameViewWithoutValidationMessages) {
     }
 }
 
+TEST(RasterDraw, NearestSurfacesTakeFromTheCountOfShadowVolumes) {
+    Q3RT_OPEN_GAME_DATA_OR_SKIP(files);
+    setenv("Q3RT_VALIDATION", "1", 1);
+    TestServices services(*files);
+    setPictureSize(services);
+    TestRenderer renderer(services);
+    try {
+        renderer.beginRegistration();
+    } catch (const DeviceError& error) {
+        GTEST_SKIP() << "no Vulkan device: " << error.what();
+    }
+    renderer.loadWorld("maps/oa_dm1.bsp");
+    SceneEntity caster;
+    caster.model = renderer.registerModel("models/powerups/armor/armor_yel.md3");
+    const int blood = renderer.registerShader("viewBloodBlend", true); // sort nearest, alpha of its vertices
+    renderer.endRegistration();
+    const SceneView view = spawnView(*renderer.map(), 0);
+    caster.orientation.origin = caster.lightingOrigin = view.view.origin + 96.0f * view.view.axis[0];
+    const size_t warmed = renderer.pipelineCount();
+    const auto draw = [&](const char* shadows, int sheets) {
+        services.setCvar("cg_shadows", shadows);
+        renderer.beginFrame(0);
+        renderer.clearScene();
+        renderer.addEntity(caster);
+        for (int i = 0; i < sheets; ++i) { // a clear sheet over all of the view
+            std::array<PolyVertex, 4> corners{};
+            for (size_t k = 0; k < corners.size(); ++k) {
+                const float side = k == 0 || k == 3 ? 1.0f : -1.0f, up = k < 2 ? 1.0f : -1.0f;
+                corners[k].position = view.view.origin + 12.0f * view.view.axis[0] + 48.0f * side * view.view.axis[1] +
+                                      48.0f * up * view.view.axis[2];
+                corners[k].color = U8vec4(255, 255, 255, 0);
+            }
+            renderer.addPolys(blood, corners.size(), corners);
+        }
+        renderer.renderScene(view);
+        return endFrame(renderer, services);
+    };
+    const std::vector<uint8_t> plain = draw("0", 0), shaded = draw("2", 0), erased = draw("2", 8);
+    keepImage("shadow_volume", shaded);
+    keepImage("shadow_volume_erased", erased);
+    EXPECT_NE(plain, shaded) << "no shadow in view";
+    EXPECT_EQ(plain, erased) << "what is nearest leaves shadows";
+    EXPECT_EQ(plain, draw("0", 8)) << "the sheet shows";
+    EXPECT_EQ(renderer.pipelineCount(), warmed) << "a pipeline was made during play";
+    for (const std::string& message : renderer.messages())
+        ADD_FAILURE() << message;
+}
+
 } // namespace
 } // namespace q3rt::test
