@@ -141,8 +141,8 @@ RunTime TraceRenderer::runStill(VkExtent2D extent, bool filters) {
         input.extent = extent;
         input.stagedCover = view.stagedCover;
         m_pipelines->warm(commands, input);
-        if (filters && buffers.denoiser) m_denoisePipelines->warm(commands);
         if (!filters) return;
+        m_denoisePipelines->warm(commands);
         input.stagedCover = !view.stagedCover;
         m_pipelines->warm(commands, input);
         context().target().transition(commands, storageWritten);

@@ -25,6 +25,7 @@ const char* TraceRenderer::backendName() const {
 
 void TraceRenderer::onDeviceCreated() {
     m_pictures = std::make_unique<PicturePipelines>(context().device());
+    m_denoisePipelines = std::make_unique<DenoisePipelines>(context().device());
     m_report = std::make_unique<FrameReport>(context().device(), context().ring().framesInFlight());
     const Capabilities& can = context().device().capabilities();
     Backend backend = chooseBackend(m_settings.rt_backend, can);

@@ -101,7 +101,7 @@ class TraceRenderer final : public GpuRenderer {
     Pace m_pace;
     std::unique_ptr<StagePipelines> m_pipelines;
     std::unique_ptr<PicturePipelines> m_pictures;
-    std::unique_ptr<DenoisePipelines> m_denoisePipelines; ///< made when a denoiser is first wanted
+    std::unique_ptr<DenoisePipelines> m_denoisePipelines;
     std::unique_ptr<TracedScene> m_scene;
     std::list<ViewBuffers> m_buffers; ///< addresses stay
     std::list<TracedView> m_views;    ///< of this frame; passes refer to them

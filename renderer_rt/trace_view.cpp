@@ -208,8 +208,6 @@ void TraceRenderer::prepareHistory(const FrameCommands& frame, const SceneView& 
     const bool antialiased = m_settings.rt_taa != 0 && filtered;
     const auto kind =
         filtered && m_settings.rt_illumination ? static_cast<DenoiserKind>(m_settings.rt_denoiser) : DenoiserKind::None;
-    if (kind != DenoiserKind::None && !m_denoisePipelines)
-        m_denoisePipelines = std::make_unique<DenoisePipelines>(context().device());
     buffers.turnHistory(context().device(), m_denoisePipelines.get(), kind, antialiased || scaled);
     if (!buffers.guides) return;
     advanceMotion(frame, scene, buffers, out);

@@ -23,18 +23,25 @@ LightSample darkSample(vec3 direction)
     return result;
 }
 
+// Is a point of the triangle above the horizon of the shaded point, which is off its plane on a side that shines?
+bool triangleMayShine(vec3 position, vec3 normal, vec3 corner, vec3 edge1, vec3 edge2, vec3 lightNormal, bool twoSided)
+{
+    vec3 toCorner = corner - position;
+    float height = -dot(lightNormal, toCorner);
+    float highest = dot(normal, toCorner) + max(max(dot(normal, edge1), dot(normal, edge2)), 0.0f);
+    return highest > 0.0f && (height > 0.0f || (height < 0.0f && twoSided));
+}
+
 // Lambertian triangle, a point uniform by solid angle: E = L x solid angle x cos(receiver), however near the light is.
 // `normal` and `lightNormal` are unit; `position` is the shaded point; in the light's plane it takes nothing.
 LightSample sampleTriangleLight(vec3 position, vec3 normal, vec3 corner, vec3 edge1, vec3 edge2, vec3 lightNormal,
                                 float areaQu2, vec3 radiance, bool twoSided, float u, float v)
 {
     LightSample result = darkSample(corner - position);
-    float height = -dot(lightNormal, result.direction);
-    float above = dot(normal, result.direction);
-    float highest = above + max(max(dot(normal, edge1), dot(normal, edge2)), 0.0f);
-    if (highest <= 0.0f || height == 0.0f || (height < 0.0f && !twoSided))
+    if (!triangleMayShine(position, normal, corner, edge1, edge2, lightNormal, twoSided))
         return result;
-    SphericalTriangle seen = makeSphericalTriangle(result.direction, edge1, edge2, abs(height), areaQu2);
+    float height = abs(dot(lightNormal, result.direction));
+    SphericalTriangle seen = makeSphericalTriangle(result.direction, edge1, edge2, height, areaQu2);
     result.direction = sampleSphericalTriangle(seen, u, v);
     float cosReceiver = dot(normal, result.direction) * inversesqrt(dot(result.direction, result.direction));
     if (cosReceiver > 0.0f)

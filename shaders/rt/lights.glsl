@@ -142,6 +142,24 @@ LightSample sampleOther(RtLight l, ShadingPoint point, vec2 random, bool seesSky
     return result;
 }
 
+// Can a light give anything to a point? Cheaper than a sample; never false where one has light.
+bool otherMayShine(RtLight l, ShadingPoint point)
+{
+    // A soft sun of angle a reaches sin(a) below the horizon: at most the square root of 2 (1 - cos a).
+    return l.kind == kLightSphere ? dot(point.normal, l.position - point.origin) > -l.size
+                                  : dot(point.normal, l.position) > -sqrt(2.0 * l.size);
+}
+
+bool mayShine(uint light, ShadingPoint point)
+{
+    if (light < rtFrame.triangleLightCount) {
+        RtTriangleLight l = loadTriangleLight(rtFrame.triangleLights, light);
+        return triangleMayShine(point.origin, point.normal, l.corner, l.edge1, l.edge2, l.normal,
+                                (l.flags & kLightTwoSided) != 0u);
+    }
+    return otherMayShine(LightTable(rtFrame.pointLights).at[light - rtFrame.triangleLightCount], point);
+}
+
 // A light by its number in the rows.
 LightSample sampleRowLight(uint light, ShadingPoint point, vec2 random)
 {

@@ -31,23 +31,36 @@ ShadingPoint findPlainPoint(Hit hit, vec3 direction)
 }
 
 const uint kPlainBlock = 8u; // pixels a side
+const uint kPlainDrawn = 4u; // lights of the rows
 
-// One of all lights, wherever they are, as if it alone gave the light of all.
+// Any of some lights that may shine here, wherever they are, as if it alone gave the light of all: few pixels that some
+// light faces have no ray.
 LightSample drawPlainLight(ShadingPoint point, uvec4 bits)
 {
     RtLightRow row = everyLight();
-    uint kinds = rtFrame.lightCount + (row.facing > 0u ? 1u : 0u);
-    vec4 random = unitFloats(bits);
-    uint kind = min(uint(random.z * float(kinds)), max(kinds, 1u) - 1u);
-    LightSample lit = darkSample(point.normal);
-    if (kind < rtFrame.lightCount) {
-        lit = sampleOther(LightTable(rtFrame.lights).at[kind], point, random.xy, row.seesSky != 0u);
-    } else if (kinds > 0u) {
-        DrawnLight drawn = drawLight(row, bits.w);
-        lit = sampleRowLight(drawn.light, point, random.xy);
-        lit.irradiance *= drawn.weight;
+    uint drawnCount = row.facing > 0u ? kPlainDrawn : 0u;
+    uint step = 0xffffffffu / kPlainDrawn;
+    LightChoice choice = beginChoice(unitFloat(bits.z));
+    LightSample candidate = darkSample(point.normal);
+    for (uint i = 0u; i < drawnCount + rtFrame.lightCount; ++i) {
+        bool shines = i < drawnCount ? mayShine(drawLight(row, bits.w + i * step).light, point)
+                                     : otherMayShine(LightTable(rtFrame.lights).at[i - drawnCount], point);
+        candidate.light = i;
+        choice = considerWeighted(choice, candidate, shines ? 1.0 : 0.0);
     }
-    lit.irradiance *= float(kinds);
+    if (choice.weightSum == 0.0)
+        return candidate;
+    uint chosen = choice.kept.light;
+    vec2 random = unitFloats(bits).xy;
+    LightSample lit;
+    if (chosen < drawnCount) {
+        DrawnLight drawn = drawLight(row, bits.w + chosen * step);
+        lit = sampleRowLight(drawn.light, point, random);
+        lit.irradiance *= drawn.weight / float(drawnCount);
+    } else {
+        lit = sampleOther(LightTable(rtFrame.lights).at[chosen - drawnCount], point, random, row.seesSky != 0u);
+    }
+    lit.irradiance *= choice.weightSum;
     return lit;
 }
 
