@@ -1,10 +1,13 @@
 // bench_replay RECORDING MODULE WIDTHxHEIGHT FIRST COUNT [CVAR=VALUE]...: what a frame of a recording costs a renderer
-// module. One line of JSON: processor time of all threads, wall time, heap allocations of our own, memory. The frames
-// are read into memory first; 50 frames before FIRST are drawn and not counted.
+// module. One line of JSON: processor time of all threads, wall time, heap allocations of our own, memory (resident:
+// heap and stacks, files, shared; what a software Vulkan driver allocates for a device is shared). The frames are read
+// into memory first; 50 frames before FIRST are drawn and not counted.
 
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <string>
 #include <sys/resource.h>
 
 #include <nlohmann/json.hpp>
@@ -36,14 +39,26 @@ double peakMemoryMb() {
     return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-void measure(int argc, char** argv) {
-    Replayer::Options options;
-    if (std::sscanf(argv[3], "%dx%d", &options.width, &options.height) != 2)
-        throw UsageError(std::string(argv[3]) + " is no size: write WIDTHxHEIGHT");
+/// Resident memory of one kind, such as RssAnon.
+double residentMb(const std::string& kind) {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with(kind + ":")) return std::strtod(line.c_str() + kind.size() + 1, nullptr) / 1024;
+    return 0;
+}
+
+void addCvars(Replayer::Options& options, int argc, char** argv) {
     for (int i = 6; i < argc; ++i) {
         const std::string text = argv[i];
         options.cvars.emplace_back(text.substr(0, text.find('=')), text.substr(text.find('=') + 1));
     }
+}
+
+void measure(int argc, char** argv) {
+    Replayer::Options options;
+    if (std::sscanf(argv[3], "%dx%d", &options.width, &options.height) != 2)
+        throw UsageError(std::string(argv[3]) + " is no size: write WIDTHxHEIGHT");
+    addCvars(options, argc, argv);
     const int first = std::atoi(argv[4]), count = std::atoi(argv[5]);
     Recording recording{std::filesystem::path(argv[1])};
     RecordedFiles files(recording, {});
@@ -90,6 +105,9 @@ void measure(int argc, char** argv) {
                                          {"allocations", allocations},
                                          {"frames_allocating", framesAllocating},
                                          {"peak_mb", peakMemoryMb()},
+                                         {"heap_mb", residentMb("RssAnon")},
+                                         {"file_mb", residentMb("RssFile")},
+                                         {"shared_mb", residentMb("RssShmem")},
                                          {"device", engine.config().renderer_string}};
     std::printf("%s\n", line.dump().c_str());
     engine.unloadModule();
