@@ -25,7 +25,7 @@ vec3 pointOf(const LightGrid& grid, size_t index) {
 
 /// What is left, by channel: along the direction what is not explained there, elsewhere no more than is not explained
 /// across and behind. Never below 0.
-void takeAway(const ProbeWays& explained, RtGridLight& light) {
+void takeAway(const ProbeWays& explained, GridShare& light) {
     const vec3 around = (explained[1] + explained[2] + explained[3] + explained[4] + explained[5]) / 5.0f;
     const vec3 along = glm::max(light.ambient + light.directed - explained[0], vec3(0.0f));
     light.ambient = glm::min(glm::max(light.ambient - around, vec3(0.0f)), along);
@@ -39,7 +39,7 @@ struct CellMix {
     float weight[8];
 };
 
-CellMix mixAt(const LightGrid& shape, const std::vector<RtGridCell>& grid, const vec3& point) {
+CellMix mixAt(const LightGrid& shape, const std::vector<GridCell>& grid, const vec3& point) {
     const vec3 v = (point - shape.origin) / shape.cellSize;
     const ivec3 low = glm::clamp(ivec3(glm::floor(v)), ivec3(0), shape.counts - 1);
     const vec3 f = glm::clamp(v - vec3(low), 0.0f, 1.0f);
@@ -65,10 +65,10 @@ CellMix mixAt(const LightGrid& shape, const std::vector<RtGridCell>& grid, const
     return mix;
 }
 
-vec3 lightOf(const std::vector<RtGridCell>& grid, const CellMix& mix, const vec3& normal) {
+vec3 lightOf(const std::vector<GridCell>& grid, const CellMix& mix, const vec3& normal) {
     vec3 ambient(0), directed(0), direction(0);
     for (size_t k = 0; k < mix.count; ++k) {
-        const RtGridCell& cell = grid[mix.cell[k]];
+        const GridCell& cell = grid[mix.cell[k]];
         ambient += mix.weight[k] * cell.surfaces.ambient;
         directed += mix.weight[k] * cell.surfaces.directed;
         direction += mix.weight[k] * cell.direction;
@@ -79,10 +79,10 @@ vec3 lightOf(const std::vector<RtGridCell>& grid, const CellMix& mix, const vec3
 
 } // namespace
 
-std::vector<ProbeWays> explainGrid(const LightProbe& probe, const LightGrid& shape, std::vector<RtGridCell>& grid) {
+std::vector<ProbeWays> explainGrid(const LightProbe& probe, const LightGrid& shape, std::vector<GridCell>& grid) {
     std::vector<ProbeWays> explained(grid.size());
     parallelFor(grid.size(), [&](size_t i) {
-        RtGridCell& cell = grid[i];
+        GridCell& cell = grid[i];
         if (cell.valid == 0) return;
         std::mt19937 random(static_cast<unsigned>(i)); // by cell: the same grid on any number of cores
         const float length = glm::length(cell.direction);
@@ -96,10 +96,10 @@ std::vector<ProbeWays> explainGrid(const LightProbe& probe, const LightGrid& sha
     return explained;
 }
 
-void raiseGrid(std::vector<RtGridCell>& grid, const std::vector<ProbeWays>& explained, const vec3& ambient,
+void raiseGrid(std::vector<GridCell>& grid, const std::vector<ProbeWays>& explained, const vec3& ambient,
                const vec3& floor) {
     for (size_t i = 0; i < grid.size(); ++i) {
-        RtGridCell& cell = grid[i];
+        GridCell& cell = grid[i];
         if (cell.valid == 0) continue;
         cell.surfaces.ambient = glm::max(cell.surfaces.ambient, ambient);
         vec3 lacking(0.0f);
@@ -128,7 +128,7 @@ std::vector<LuxelLack> findLacks(const World& world, const MaterialLibrary& mate
     return lacks;
 }
 
-void capGrid(const LightGrid& shape, std::vector<RtGridCell>& grid, const std::vector<LuxelLack>& lacks) {
+void capGrid(const LightGrid& shape, std::vector<GridCell>& grid, const std::vector<LuxelLack>& lacks) {
     struct Sum {
         double lacks = 0, has = 0;
         float share() const {

@@ -10,12 +10,12 @@ namespace q3rt {
 
 /// Takes what the lights give from every cell of `grid`, and sets `sunSeen`. Returns what they give, by cell and way:
 /// the first is the cell's direction. `shape`: of the map's grid, whose cells these are.
-std::vector<ProbeWays> explainGrid(const LightProbe& probe, const LightGrid& shape, std::vector<RtGridCell>& grid);
+std::vector<ProbeWays> explainGrid(const LightProbe& probe, const LightGrid& shape, std::vector<GridCell>& grid);
 
 /// On surfaces. No cell has less than the light that is everywhere: the grids of some compilers lack it. And each gets
 /// what its directions lack, mean over them, of the least irradiance that the bake let a surface have. `explained` is
 /// an estimate of a few rays and stands inside a maximum: its noise makes the result a little too bright. Luxel units.
-void raiseGrid(std::vector<RtGridCell>& grid, const std::vector<ProbeWays>& explained, const vec3& ambient,
+void raiseGrid(std::vector<GridCell>& grid, const std::vector<ProbeWays>& explained, const vec3& ambient,
                const vec3& floor);
 
 /// A point of a face.
@@ -31,6 +31,6 @@ std::vector<LuxelLack> findLacks(const World& world, const MaterialLibrary& mate
 /// On surfaces. Darkens each cell to what the luxels that take light from it lack, mean over them: cells are coarse,
 /// stand in the air, and some compilers made them brighter than the lightmap. A cell from which none takes light is
 /// darkened as all are on the mean.
-void capGrid(const LightGrid& shape, std::vector<RtGridCell>& grid, const std::vector<LuxelLack>& lacks);
+void capGrid(const LightGrid& shape, std::vector<GridCell>& grid, const std::vector<LuxelLack>& lacks);
 
 } // namespace q3rt

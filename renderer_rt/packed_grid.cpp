@@ -11,16 +11,16 @@ using uint = uint32_t;
 
 #include "lib/grid_cell.glsl"
 
-uvec4 pack(const RtGridCell& cell, const RtGridLight& light) {
+uvec4 pack(const GridCell& cell, const GridShare& light) {
     return packGridCell({light.ambient, light.directed, cell.direction, cell.sunSeen, cell.valid != 0});
 }
 
 } // namespace
 
-std::vector<glm::uvec4> packGrid(const std::vector<RtGridCell>& grid) {
+std::vector<glm::uvec4> packGrid(const std::vector<GridCell>& grid) {
     std::vector<glm::uvec4> rows;
     rows.reserve(2 * grid.size());
-    for (const RtGridCell& cell : grid) {
+    for (const GridCell& cell : grid) {
         rows.push_back(pack(cell, cell.surfaces));
         rows.push_back(pack(cell, cell.models));
     }

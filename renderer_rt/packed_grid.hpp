@@ -6,6 +6,6 @@
 namespace q3rt {
 
 /// Two rows a cell: as surfaces take it, as models do.
-std::vector<glm::uvec4> packGrid(const std::vector<RtGridCell>& grid);
+std::vector<glm::uvec4> packGrid(const std::vector<GridCell>& grid);
 
 } // namespace q3rt

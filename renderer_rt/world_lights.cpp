@@ -64,8 +64,8 @@ std::vector<RtNode> makeNodes(const World& world) {
     return nodes;
 }
 
-std::vector<RtGridCell> makeGrid(const World& world, const ModelLightScale& scale) {
-    std::vector<RtGridCell> cells;
+std::vector<GridCell> makeGrid(const World& world, const ModelLightScale& scale) {
+    std::vector<GridCell> cells;
     if (world.grid.empty()) return cells;
     // As it was baked: a brightened one has lost what did not fit its bytes.
     const LightGrid grid = LightGrid::build(world.bsp, world.grid.cellSize, 0);
@@ -74,7 +74,7 @@ std::vector<RtGridCell> makeGrid(const World& world, const ModelLightScale& scal
             for (int x = 0; x < grid.counts.x; ++x) {
                 const vec3 point = grid.origin + grid.cellSize * vec3(x, y, z);
                 const GridLight light = grid.sample(point);
-                RtGridCell cell{};
+                GridCell cell{};
                 cell.surfaces = {light.ambient, light.directed};
                 cell.models = {scale.ambient * light.ambient, scale.directed * light.directed};
                 cell.direction = light.direction;

@@ -14,17 +14,17 @@
 namespace q3rt {
 
 /// Irradiance = ambient + directed x max(0, cosine of normal and direction), luxel units.
-struct RtGridLight {
+struct GridShare {
     vec3 ambient, directed;
 };
 
 /// What the traced lights leave of a point of the map's light grid.
-struct RtGridCell {
-    RtGridLight surfaces; ///< of what has a lightmap, or baked colours
-    RtGridLight models;   ///< of what the engine lights by the grid
-    vec3 direction;       ///< unit, toward the light
-    uint32_t valid;       ///< 0: inside a wall
-    float sunSeen;        ///< share of the suns that shine here, [0, 1]: a guide for choosing lights
+struct GridCell {
+    GridShare surfaces; ///< of what has a lightmap, or baked colours
+    GridShare models;   ///< of what the engine lights by the grid
+    vec3 direction;     ///< unit, toward the light
+    uint32_t valid;     ///< 0: inside a wall
+    float sunSeen;      ///< share of the suns that shine here, [0, 1]: a guide for choosing lights
 };
 
 /// What is uploaded, as plain tables: pure, testable.
@@ -34,7 +34,7 @@ struct LightTables {
     std::vector<RtLight> others;            ///< suns, in no row; a frame's dynamic lights follow them
     LightRows rows;
     std::vector<RtNode> nodes;
-    std::vector<RtGridCell> grid;
+    std::vector<GridCell> grid;
 };
 /// Of the light grid on models: r_ambientScale, r_directedScale.
 struct ModelLightScale {

@@ -136,7 +136,7 @@ TEST(LostLightFile, SaysWhatIsWrong) {
 /// Two cells beside each other and one in a wall, 64 qu apart.
 struct SmallGrid {
     LightGrid shape;
-    std::vector<RtGridCell> cells{3};
+    std::vector<GridCell> cells{3};
     SmallGrid() {
         shape.origin = vec3(0);
         shape.cellSize = vec3(64);
@@ -172,7 +172,7 @@ TEST(CapGrid, WhereNoLuxelTellsTheMeanDoes) {
     capGrid(unasked.shape, unasked.cells, {});
     EXPECT_EQ(unasked.shareLeft(0), 1) << "of a map without a luxel nothing is known";
     SmallGrid dark; // nothing is there, and that is too much
-    dark.cells.assign(3, RtGridCell{.valid = 1});
+    dark.cells.assign(3, GridCell{.valid = 1});
     capGrid(dark.shape, dark.cells, {{vec3(0), vec3(0, 0, 1), -9, true}});
     EXPECT_EQ(dark.cells[0].surfaces.ambient, vec3(0));
 }
@@ -186,7 +186,7 @@ TEST(ModelLight, IsTheGridLessWhatTheLightsGive) {
     const ModelLightScale scale{.ambient = 0.6f, .directed = 1};
     for (const LightSet& lights : {LightSet{}, extractLights(*world, materials)}) {
         LightTables tables = buildLightTables(*world, materials, lights, scale, animation);
-        const std::vector<RtGridCell> baked = tables.grid;
+        const std::vector<GridCell> baked = tables.grid;
         const LightProbe probe(*world, materials, tables);
         const std::vector<ProbeWays> given = explainGrid(probe, world->grid, tables.grid);
         std::vector<LuxelLack> nothing;
@@ -196,7 +196,7 @@ TEST(ModelLight, IsTheGridLessWhatTheLightsGive) {
         int lit = 0;
         for (size_t i = 0; i < baked.size(); ++i) {
             if (baked[i].valid == 0) continue;
-            const RtGridLight& left = tables.grid[i].models;
+            const GridShare& left = tables.grid[i].models;
             const vec3 along = baked[i].models.ambient + baked[i].models.directed;
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(left.ambient[c] + left.directed[c], std::max(0.0f, along[c] - given[i][0][c]), 1e-3f);
@@ -211,13 +211,13 @@ TEST(ModelLight, IsTheGridLessWhatTheLightsGive) {
 }
 
 TEST(RaiseGrid, GivesWhatLacks) {
-    std::vector<RtGridCell> grid(3);
+    std::vector<GridCell> grid(3);
     grid[0].valid = grid[1].valid = 1;
     grid[0].surfaces.ambient = vec3(4);
     grid[0].surfaces.directed = vec3(6);
     grid[1].surfaces.ambient = vec3(25);
     const ProbeWays half = {vec3(1), vec3(0), vec3(2), vec3(30), vec3(0), vec3(0)};
-    std::vector<RtGridCell> raised = grid;
+    std::vector<GridCell> raised = grid;
     raiseGrid(raised, {half, half, half}, vec3(0), vec3(20, 0, 20));
     // Given: 11, 4, 6, 34, 4, 4.
     EXPECT_NEAR(raised[0].surfaces.ambient.x, 4 + (9 + 16 + 14 + 0 + 16 + 16) / 6.0, 1e-5);

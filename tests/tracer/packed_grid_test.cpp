@@ -23,9 +23,9 @@ void expectNear(const vec3& packed, const vec3& given) {
 TEST(PackedGrid, KeepsCells) {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> light(0, 300), unit(-1, 1), share(0, 1);
-    std::vector<RtGridCell> grid;
+    std::vector<GridCell> grid;
     for (int i = 0; i < 5000; ++i) {
-        RtGridCell cell{};
+        GridCell cell{};
         cell.surfaces = {vec3(light(random), 0, light(random)), vec3(light(random), 1e-3f, 70000)};
         cell.models = {vec3(1, light(random), 2), vec3(0)};
         cell.direction = glm::normalize(vec3(unit(random), unit(random), unit(random) + 1e-3f));
@@ -36,8 +36,8 @@ TEST(PackedGrid, KeepsCells) {
     const std::vector<glm::uvec4> rows = packGrid(grid);
     ASSERT_EQ(rows.size(), 2 * grid.size());
     for (size_t i = 0; i < rows.size(); ++i) {
-        const RtGridCell& cell = grid[i / 2];
-        const RtGridLight& given = i % 2 == 0 ? cell.surfaces : cell.models;
+        const GridCell& cell = grid[i / 2];
+        const GridShare& given = i % 2 == 0 ? cell.surfaces : cell.models;
         const shader::GridCellLight packed = shader::unpackGridCell(rows[i]);
         expectNear(packed.ambient, given.ambient);
         expectNear(packed.directed, given.directed);
@@ -48,7 +48,7 @@ TEST(PackedGrid, KeepsCells) {
 }
 
 TEST(PackedGrid, LightFromNowhereIsNone) {
-    RtGridCell cell{};
+    GridCell cell{};
     cell.surfaces.directed = vec3(9);
     cell.valid = 1;
     EXPECT_EQ(shader::unpackGridCell(packGrid({cell})[0]).directed, vec3(0));

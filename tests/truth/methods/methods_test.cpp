@@ -217,7 +217,7 @@ dvec3 PointMethods::runKept(size_t kept) {
 
 dvec3 PointMethods::enumerateChoices(uint cullLights, uint candidates, float sunSeen) {
     prepare(cullLights, 1);
-    RtGridCell cell{};
+    GridCell cell{};
     cell.valid = 1;
     cell.sunSeen = sunSeen;
     m_inputs.frame.candidatesPerChoice = candidates;
