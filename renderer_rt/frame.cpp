@@ -18,16 +18,22 @@ void TraceRenderer::drawWorldView(FrameGraph& graph, FrameTargets& targets, cons
     if (m_settings.rt_compare == kCompareRaster)
         raster().addView(graph, targets, frame, scene, drawListSettings(), "compare raster");
     if (view.top) addAcceleration(graph, resources, work);
-    if (m_settings.rt_illumination == kPlainIllumination) {
+    if (m_settings.rt_illumination == kPlainIllumination)
         addPlain(graph, resources, work);
-        addOutput(graph, resources, targets, work, describeOutput(buffers, view));
-        return;
-    }
+    else
+        addLitView(graph, resources, work, buffers);
+    addOutput(graph, resources, targets, work, describeOutput(buffers, view));
+
+    m_reportBuffer = resources.report;
+}
+
+void TraceRenderer::addLitView(FrameGraph& graph, ViewResources& resources, const ViewWork& work,
+                               ViewBuffers& buffers) {
     addLook(graph, resources, work);
     addShade(graph, resources, work);
     addPrimary(graph, resources, work);
     if (buffers.denoiser) buffers.denoiser->addBeforeDirect(graph, resources);
-    if (view.frame.lightsPerPixel == 1) {
+    if (work.view.frame.lightsPerPixel == 1) {
         addChoose(graph, resources, work);
         addSort(graph, resources, work);
         addShadows(graph, resources, work);
@@ -40,9 +46,6 @@ void TraceRenderer::drawWorldView(FrameGraph& graph, FrameTargets& targets, cons
     if (buffers.sums) addAccumulate(graph, resources, work);
     if (buffers.exposure) addExposureCount(graph, resources, work);
     if (buffers.taa) addTaa(graph, resources, work, *buffers.taa);
-    addOutput(graph, resources, targets, work, describeOutput(buffers, view));
-
-    m_reportBuffer = resources.report;
 }
 
 } // namespace q3rt

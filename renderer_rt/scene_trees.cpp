@@ -54,6 +54,7 @@ BvhInstance describe(const TreeInstance& instance, const mat4& modelFromWorld) {
     out.nodes = instance.tree.nodes;
     out.triangles = instance.tree.triangles;
     out.customIndex = instance.customIndex;
+    if (instance.worldFromModel == mat4(1.0f)) out.mask = kBvhInPlace;
     for (size_t part = 0; part < instance.masks.size(); ++part) {
         out.mask |= instance.masks[part];
         out.partMasks[part / 4] |= uint32_t{instance.masks[part]} << (8 * (part % 4));
@@ -126,7 +127,7 @@ SceneTreeData buildSceneTree(std::span<const TreeInstance> instances) {
         if (instance.tree.bounds.empty() || !isFinite(inverse)) continue;
         placed.push_back(describe(instance, inverse));
         boxes.push_back(transformBounds(instance.tree.bounds, instance.worldFromModel));
-        groups.push_back(groupsOfMask(placed.back().mask));
+        groups.push_back(groupsOfMask(placed.back().mask & ~kBvhInPlace));
     }
     Bvh bvh = buildSah(boxes, {.maxLeafItems = 1, .groups = groups});
     std::vector<BvhInstance> ordered;

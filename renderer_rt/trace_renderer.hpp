@@ -30,6 +30,7 @@ class TraceRenderer final : public GpuRenderer {
   private:
     void drawWorldView(FrameGraph& graph, FrameTargets& targets, const FrameCommands& frame,
                        const SceneView& scene) override;
+    void addLitView(FrameGraph& graph, ViewResources& resources, const ViewWork& work, ViewBuffers& buffers);
     const char* backendName() const override;
     bool isRasterizer() const override { return false; } // light is measured with white as 1
     const char* rendererName() const override { return "q3rt renderer_rt"; }

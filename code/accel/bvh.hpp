@@ -74,4 +74,7 @@ struct TriangleLabel {
 std::vector<BvhTriangle> leafTriangles(const Bvh& bvh, std::span<const vec3> positions,
                                        std::span<const TriangleLabel> labels = {});
 
+/// A tree whose model space is the world's, as rays of any of `mask` meet all its parts.
+BvhInstance instanceInPlace(uint64_t nodes, uint64_t triangles, uint32_t mask);
+
 } // namespace q3rt

@@ -91,4 +91,16 @@ std::vector<BvhTriangle> leafTriangles(const Bvh& bvh, std::span<const vec3> pos
     return triangles;
 }
 
+BvhInstance instanceInPlace(uint64_t nodes, uint64_t triangles, uint32_t mask) {
+    BvhInstance instance{};
+    for (int row = 0; row < 3; ++row)
+        instance.modelFromWorld[row][row] = 1;
+    instance.nodes = nodes;
+    instance.triangles = triangles;
+    instance.mask = mask | kBvhInPlace;
+    for (uint32_t& masks : instance.partMasks)
+        masks = 0x01010101u * mask;
+    return instance;
+}
+
 } // namespace q3rt

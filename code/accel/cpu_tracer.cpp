@@ -55,12 +55,8 @@ CpuTracer::CpuTracer(std::span<const vec3> positions, std::span<const uint8_t> o
     for (uint32_t i = 0; i < opaque.size(); ++i)
         labels.push_back({i, opaque[i] ? kBvhTriangleOpaque : 0});
     m_triangles = leafTriangles(m_bvh, positions, labels);
-    m_instance.modelFromWorld[0] = {1, 0, 0, 0};
-    m_instance.modelFromWorld[1] = {0, 1, 0, 0};
-    m_instance.modelFromWorld[2] = {0, 0, 1, 0};
-    m_instance.nodes = reinterpret_cast<uint64_t>(m_bvh.nodes.data());
-    m_instance.triangles = reinterpret_cast<uint64_t>(m_triangles.data());
-    m_instance.mask = 1;
+    m_instance = instanceInPlace(reinterpret_cast<uint64_t>(m_bvh.nodes.data()),
+                                 reinterpret_cast<uint64_t>(m_triangles.data()), 1);
     m_scene = buildSah({&m_bvh.bounds, 1}, {.maxLeafItems = 1});
 }
 

@@ -57,8 +57,8 @@ uint boxesMet(vec4 nearX, vec4 nearY, vec4 nearZ, vec4 farX, vec4 farY, vec4 far
     ivec4 leaveX = floatBitsToInt(farX * ray.reciprocal.x + ray.leave.x);
     ivec4 leaveY = floatBitsToInt(farY * ray.reciprocal.y + ray.leave.y);
     ivec4 leaveZ = floatBitsToInt(farZ * ray.reciprocal.z + ray.leave.z);
-    ivec4 enter = max(max(enterX, enterY), max(enterZ, ivec4(floatBitsToInt(tMin))));
-    ivec4 leave = min(min(leaveX, leaveY), min(leaveZ, ivec4(floatBitsToInt(tMax))));
+    ivec4 enter = max(max(max(enterX, enterY), enterZ), ivec4(floatBitsToInt(tMin)));
+    ivec4 leave = min(min(min(leaveX, leaveY), leaveZ), ivec4(floatBitsToInt(tMax)));
     // The child's number stands in the lowest bits of its distance.
     ivec4 order = (enter & ~3) | ivec4(0, 1, 2, 3);
     const int kMissed = 0x7fffffff;
@@ -66,7 +66,7 @@ uint boxesMet(vec4 nearX, vec4 nearY, vec4 nearZ, vec4 farX, vec4 farY, vec4 far
     order.y = enter.y <= leave.y ? order.y : kMissed;
     order.z = enter.z <= leave.z ? order.z : kMissed;
     order.w = enter.w <= leave.w ? order.w : kMissed;
-    first = uint(min(min(order.x, order.y), min(order.z, order.w))) & 3u;
+    first = uint(min(min(min(order.x, order.y), order.z), order.w)) & 3u;
     return (enter.x <= leave.x ? 1u : 0u) | (enter.y <= leave.y ? 2u : 0u) | (enter.z <= leave.z ? 4u : 0u) |
            (enter.w <= leave.w ? 8u : 0u);
 }
@@ -83,6 +83,11 @@ float componentOf(vec3 v, uint axis) { return axis == 0u ? v.x : axis == 1u ? v.
 vec3 componentsOf(vec3 v, uvec3 axes)
 {
     return vec3(componentOf(v, axes.x), componentOf(v, axes.y), componentOf(v, axes.z));
+}
+// Back from the order of a ray's axes.
+vec3 fromOrder(vec3 v, uvec3 axes)
+{
+    return axes.z == 2u ? v : axes.z == 0u ? vec3(v.z, v.x, v.y) : vec3(v.y, v.z, v.x);
 }
 
 // `reciprocal` of slabReciprocal().

@@ -49,6 +49,23 @@ LightSample sampleTriangleLight(vec3 position, vec3 normal, vec3 corner, vec3 ed
     return result;
 }
 
+// The same, a point uniform by area: a fifth of the work, and noise without bound as the light comes near.
+LightSample sampleTriangleLightByArea(vec3 position, vec3 normal, vec3 corner, vec3 edge1, vec3 edge2, vec3 lightNormal,
+                                      float areaQu2, vec3 radiance, bool twoSided, float u, float v)
+{
+    LightSample result = darkSample(corner - position);
+    if (!triangleMayShine(position, normal, corner, edge1, edge2, lightNormal, twoSided))
+        return result;
+    float height = abs(dot(lightNormal, result.direction));
+    float fromCorner = sqrt(u);
+    result.direction += edge1 * (fromCorner * (1.0f - v)) + edge2 * (fromCorner * v);
+    float distance2 = dot(result.direction, result.direction);
+    float along = dot(normal, result.direction);
+    if (along > 0.0f)
+        result.irradiance = radiance * (areaQu2 * (height / distance2) * (along / distance2));
+    return result;
+}
+
 // A sphere of radius `radiusQu` with intensity I (irradiance I cos / d^2 far away): radiance I / (pi r^2), sampled
 // uniformly over the cone it fills. Inside the sphere the light comes from all of the upper hemisphere.
 // A radius of 0 is a point with the map compilers' closest distance.

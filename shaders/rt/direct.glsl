@@ -16,8 +16,8 @@ LightSample sampleNth(RtLightRow row, uint i, ShadingPoint point, uvec4 key)
     }
     uint other = i - row.count;
     uint number = rtFrame.triangleLightCount + rtFrame.pointLightCount + other;
-    return sampleOther(LightTable(rtFrame.lights).at[other], point, sampleNumbers(key, kDimensionLight + number).xy,
-                       row.seesSky != 0u);
+    return sampleOther(LightTable(rtFrame.lights).at[other], point, softShadows(),
+                       sampleNumbers(key, kDimensionLight + number).xy, row.seesSky != 0u);
 }
 
 // Every light with its own shadow ray: rt_numRandomDL 0. The pixel is read anew for each: what is not carried through

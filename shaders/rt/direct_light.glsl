@@ -60,7 +60,8 @@ LightChoice considerLights(LightChoice choice, ShadingPoint point, float sunChan
     }
     uint first = rtFrame.triangleLightCount + rtFrame.pointLightCount;
     for (uint i = 0u; i < rtFrame.lightCount; ++i) {
-        LightSample lit = sampleOther(LightTable(rtFrame.lights).at[i], point, random.xy, row.seesSky != 0u);
+        LightSample lit = sampleOther(LightTable(rtFrame.lights).at[i], point, softShadows(), random.xy,
+                                      row.seesSky != 0u);
         lit.light = first + i;
         choice = considerWeighted(choice, lit, lightWeight(lit.irradiance) * (lit.fromSky ? sunChance : 1.0));
     }

@@ -97,12 +97,9 @@ struct ShadingPoint {
     vec3 normal; // unit, shading
 };
 
-LightSample sampleTriangle(uint light, ShadingPoint point, vec2 random)
+// What a sample of a triangle takes from the light's own rules, and where its ray ends.
+LightSample finishTriangle(LightSample result, RtTriangleLight l, ShadingPoint point)
 {
-    RtTriangleLight l = loadTriangleLight(rtFrame.triangleLights, light);
-    LightSample result = sampleTriangleLight(point.origin, point.normal, l.corner, l.edge1, l.edge2, l.normal,
-                                             l.areaQu2, l.radiance, (l.flags & kLightTwoSided) != 0u, random.x,
-                                             random.y);
     if (l.animation != 0u)
         result.irradiance *= LightColorTable(rtFrame.lightColors).at[l.animation - 1u];
     if ((l.flags & kLightUpward) != 0u && result.direction.z <= 0.0)
@@ -118,11 +115,29 @@ LightSample sampleTriangle(uint light, ShadingPoint point, vec2 random)
     return result;
 }
 
-LightSample sampleSphere(RtLight l, ShadingPoint point, vec2 random)
+LightSample sampleTriangle(RtTriangleLight l, ShadingPoint point, vec2 random)
 {
-    float radius = (rtFrame.flags & kFrameSoftShadows) != 0u ? l.size : 0.0;
+    LightSample result = sampleTriangleLight(point.origin, point.normal, l.corner, l.edge1, l.edge2, l.normal,
+                                             l.areaQu2, l.radiance, (l.flags & kLightTwoSided) != 0u, random.x,
+                                             random.y);
+    return finishTriangle(result, l, point);
+}
+
+LightSample sampleTriangleByArea(RtTriangleLight l, ShadingPoint point, vec2 random)
+{
+    LightSample result = sampleTriangleLightByArea(point.origin, point.normal, l.corner, l.edge1, l.edge2, l.normal,
+                                                   l.areaQu2, l.radiance, (l.flags & kLightTwoSided) != 0u, random.x,
+                                                   random.y);
+    return finishTriangle(result, l, point);
+}
+
+// Do spheres and suns have their size, or only a middle?
+bool softShadows() { return (rtFrame.flags & kFrameSoftShadows) != 0u; }
+
+LightSample sampleSphere(RtLight l, ShadingPoint point, bool soft, vec2 random)
+{
     LightSample result =
-        sampleSphereLight(point.origin, point.normal, l.position, radius, l.power, random.x, random.y);
+        sampleSphereLight(point.origin, point.normal, l.position, soft ? l.size : 0.0, l.power, random.x, random.y);
     if (isFaint(result.irradiance, l.faintest))
         result.irradiance = vec3(0.0);
     if (l.spot > 0.0)
@@ -131,12 +146,12 @@ LightSample sampleSphere(RtLight l, ShadingPoint point, vec2 random)
 }
 
 // A light of no row; suns shine only where a sky may be seen.
-LightSample sampleOther(RtLight l, ShadingPoint point, vec2 random, bool seesSky)
+LightSample sampleOther(RtLight l, ShadingPoint point, bool soft, vec2 random, bool seesSky)
 {
     if (l.kind == kLightSphere)
-        return sampleSphere(l, point, random);
-    LightSample result = sampleSun(point.normal, l.position, (rtFrame.flags & kFrameSoftShadows) != 0u ? l.size : 0.0,
-                                   l.power, rtFrame.farQu, random.x, random.y);
+        return sampleSphere(l, point, soft, random);
+    LightSample result =
+        sampleSun(point.normal, l.position, soft ? l.size : 0.0, l.power, rtFrame.farQu, random.x, random.y);
     if (!seesSky)
         result.irradiance = vec3(0.0);
     return result;
@@ -150,6 +165,8 @@ bool otherMayShine(RtLight l, ShadingPoint point)
                                   : dot(point.normal, l.position) > -sqrt(2.0 * l.size);
 }
 
+RtLight pointLight(uint light) { return LightTable(rtFrame.pointLights).at[light - rtFrame.triangleLightCount]; }
+
 bool mayShine(uint light, ShadingPoint point)
 {
     if (light < rtFrame.triangleLightCount) {
@@ -157,15 +174,15 @@ bool mayShine(uint light, ShadingPoint point)
         return triangleMayShine(point.origin, point.normal, l.corner, l.edge1, l.edge2, l.normal,
                                 (l.flags & kLightTwoSided) != 0u);
     }
-    return otherMayShine(LightTable(rtFrame.pointLights).at[light - rtFrame.triangleLightCount], point);
+    return otherMayShine(pointLight(light), point);
 }
 
 // A light by its number in the rows.
 LightSample sampleRowLight(uint light, ShadingPoint point, vec2 random)
 {
     if (light < rtFrame.triangleLightCount)
-        return sampleTriangle(light, point, random);
-    return sampleSphere(LightTable(rtFrame.pointLights).at[light - rtFrame.triangleLightCount], point, random);
+        return sampleTriangle(loadTriangleLight(rtFrame.triangleLights, light), point, random);
+    return sampleSphere(pointLight(light), point, softShadows(), random);
 }
 
 #endif

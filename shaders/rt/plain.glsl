@@ -33,34 +33,59 @@ ShadingPoint findPlainPoint(Hit hit, vec3 direction)
 const uint kPlainBlock = 8u; // pixels a side
 const uint kPlainDrawn = 4u; // lights of the rows
 
+// Candidates: some lights of the rows and one of those in none. A light's number goes on behind the rows' lights.
+const uint kPlainCandidates = kPlainDrawn + 1u;
+
+uint rowLightCount() { return rtFrame.triangleLightCount + rtFrame.pointLightCount; }
+
+DrawnLight plainCandidate(RtLightRow row, uint bits, uint i)
+{
+    if (i < kPlainDrawn) {
+        DrawnLight drawn = drawLight(row, bits + i * (0xffffffffu / kPlainDrawn));
+        return DrawnLight(drawn.light, drawn.weight / float(kPlainDrawn));
+    }
+    uint other, rest;
+    umulExtended(bits, rtFrame.lightCount, other, rest);
+    return DrawnLight(rowLightCount() + other, float(rtFrame.lightCount));
+}
+
+// A light that is not a triangle.
+RtLight plainRound(uint light)
+{
+    return light < rowLightCount() ? pointLight(light) : LightTable(rtFrame.lights).at[light - rowLightCount()];
+}
+
+bool plainMayShine(uint light, ShadingPoint point)
+{
+    return light < rtFrame.triangleLightCount ? mayShine(light, point) : otherMayShine(plainRound(light), point);
+}
+
+// By the cheapest way: a triangle's point uniform by area, of a sphere or sun its middle.
+LightSample samplePlain(uint light, ShadingPoint point, vec2 random, bool seesSky)
+{
+    if (light < rtFrame.triangleLightCount)
+        return sampleTriangleByArea(loadTriangleLight(rtFrame.triangleLights, light), point, random);
+    return sampleOther(plainRound(light), point, false, random, seesSky);
+}
+
 // Any of some lights that may shine here, wherever they are, as if it alone gave the light of all: few pixels that some
 // light faces have no ray.
 LightSample drawPlainLight(ShadingPoint point, uvec4 bits)
 {
     RtLightRow row = everyLight();
-    uint drawnCount = row.facing > 0u ? kPlainDrawn : 0u;
-    uint step = 0xffffffffu / kPlainDrawn;
-    LightChoice choice = beginChoice(unitFloat(bits.z));
-    LightSample candidate = darkSample(point.normal);
-    for (uint i = 0u; i < drawnCount + rtFrame.lightCount; ++i) {
-        bool shines = i < drawnCount ? mayShine(drawLight(row, bits.w + i * step).light, point)
-                                     : otherMayShine(LightTable(rtFrame.lights).at[i - drawnCount], point);
-        candidate.light = i;
-        choice = considerWeighted(choice, candidate, shines ? 1.0 : 0.0);
-    }
-    if (choice.weightSum == 0.0)
-        return candidate;
-    uint chosen = choice.kept.light;
-    vec2 random = unitFloats(bits).xy;
-    LightSample lit;
-    if (chosen < drawnCount) {
-        DrawnLight drawn = drawLight(row, bits.w + chosen * step);
-        lit = sampleRowLight(drawn.light, point, random);
-        lit.irradiance *= drawn.weight / float(drawnCount);
-    } else {
-        lit = sampleOther(LightTable(rtFrame.lights).at[chosen - drawnCount], point, random, row.seesSky != 0u);
-    }
-    lit.irradiance *= choice.weightSum;
+    uint first = row.facing > 0u ? 0u : kPlainDrawn, end = rtFrame.lightCount > 0u ? kPlainCandidates : kPlainDrawn;
+    uint shining = 0u; // a bit each
+    for (uint i = first; i < end; ++i)
+        shining |= plainMayShine(plainCandidate(row, bits.w, i).light, point) ? 1u << i : 0u;
+    if (shining == 0u)
+        return darkSample(point.normal);
+    uint count = uint(bitCount(shining)), nth, rest;
+    umulExtended(bits.z, count, nth, rest);
+    for (; nth > 0u; --nth)
+        shining &= shining - 1u;
+    DrawnLight drawn = plainCandidate(row, bits.w, uint(findLSB(shining)));
+    LightSample lit = samplePlain(drawn.light, point, unitFloats(bits).xy, row.seesSky != 0u);
+    lit.irradiance *= drawn.weight * float(count);
     return lit;
 }
 

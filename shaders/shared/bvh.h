@@ -60,6 +60,9 @@ struct BvhTriangle {
     uint reserved;
 };
 
+// Of an instance's mask, above the bits of any ray's: its model space is the world's, no ray needs turning.
+SHARED_CONST kBvhInPlace = 0x100u;
+
 // A tree placed in the scene. Tables are device addresses (test code: pointers), so that trees built at load and trees
 // built for this frame can live in different buffers.
 struct BvhInstance {
@@ -67,7 +70,7 @@ struct BvhInstance {
     BVH_TABLE nodes;        // BvhNode[], [0] the root
     BVH_TABLE triangles;    // BvhTriangle[] in leaf order
     uint customIndex;       // what a hit of part 0 reports; part n: n more
-    uint mask;              // of all its parts: a ray enters when mask & rayMask != 0
+    uint mask;              // of all its parts: a ray enters when mask & rayMask != 0; kBvhInPlace
     uint partMasks[2];      // a byte a part: its triangles are met when it has a bit of the ray's mask
 };
 

@@ -19,6 +19,7 @@
 
 // One level's ray.
 struct BvhRay {
+    uvec3 enters; // BvhNode::bounds of the planes where it enters boxes, an axis each
     SlabRay slabs;
     TriangleRay triangle;
 };
@@ -27,6 +28,8 @@ BvhRay makeBvhRay(vec3 origin, vec3 direction, BVH_TABLE nodes)
 {
     vec3 reciprocal = slabReciprocal(direction);
     BvhRay ray;
+    ray.enters = uvec3(reciprocal.x < 0.0f ? kBvhToHigh : 0u, reciprocal.y < 0.0f ? kBvhToHigh + 1u : 1u,
+                       reciprocal.z < 0.0f ? kBvhToHigh + 2u : 2u);
     ray.slabs = makeSlabRay(origin, reciprocal, loadBvhReach(nodes));
     ray.triangle = makeTriangleRay(origin, direction, reciprocal);
     return ray;
@@ -44,16 +47,14 @@ BvhRay toModelSpace(BvhInstance instance, vec3 origin, vec3 direction)
 }
 
 // Children of a node that the ray may meet and that hold something of `wanted`; as boxesMet().
-uint visitBvhNode(SlabRay ray, BVH_TABLE nodes, uint index, uint wanted, float tMin, float tMax, OUT(uint) first)
+uint visitBvhNode(BvhRay ray, BVH_TABLE nodes, uint index, uint wanted, float tMin, float tMax, OUT(uint) first)
 {
-    // By address, not by choosing between planes that were read.
-    uint x = ray.reciprocal.x < 0.0f ? kBvhToHigh : 0u;
-    uint y = ray.reciprocal.y < 0.0f ? kBvhToHigh : 0u;
-    uint z = ray.reciprocal.z < 0.0f ? kBvhToHigh : 0u;
-    uint met = boxesMet(loadBvhPlane(nodes, index, x), loadBvhPlane(nodes, index, 1u + y),
-                        loadBvhPlane(nodes, index, 2u + z), loadBvhPlane(nodes, index, kBvhToHigh - x),
-                        loadBvhPlane(nodes, index, 1u + kBvhToHigh - y),
-                        loadBvhPlane(nodes, index, 2u + kBvhToHigh - z), ray, tMin, tMax, first);
+    // By address, not by choosing between planes that were read. It leaves by the other plane of an axis.
+    uint met = boxesMet(loadBvhPlane(nodes, index, ray.enters.x), loadBvhPlane(nodes, index, ray.enters.y),
+                        loadBvhPlane(nodes, index, ray.enters.z),
+                        loadBvhPlane(nodes, index, kBvhToHigh - ray.enters.x),
+                        loadBvhPlane(nodes, index, kBvhToHigh + 2u - ray.enters.y),
+                        loadBvhPlane(nodes, index, kBvhToHigh + 4u - ray.enters.z), ray.slabs, tMin, tMax, first);
     uint held = loadBvhGroups(nodes, index) & wanted;
     return met & (held | (held >> kBvhWidth));
 }
@@ -81,21 +82,26 @@ float visitBvhLeaf(TriangleRay ray, uint item, BVH_TABLE triangles, uint leaf, f
     return tMax;
 }
 
+// A ray on the stack: origin and direction.
+const uint kBvhParkedWords = 6u;
+
 // Visits the triangles that the ray meets in (tMin, tMax), nearest boxes first. 0 <= tMin. `groups`: of triangles, that
 // are looked for (kBvhSolidGroup, kBvhOtherGroup).
 void traverseBvh(BVH_TABLE sceneNodes, vec3 origin, vec3 direction, float tMin, float tMax, uint mask, uint groups,
                  INOUT(BvhQuery) query)
 {
     // A word holds a node and those of its children that are still to be visited, a bit each: one push a visit at most.
-    // Words below `modelBase` belong to the scene.
+    // Words below `modelBase` belong to the scene. While a model is searched that is not in place the world's ray
+    // waits on top of them: rays that can be held in fewer registers are traced by more at a time.
     const uint slots = (1u << kBvhWidth) - 1u;
     uint wanted = ((groups & kBvhSolidGroup) != 0u ? slots : 0u) |
                   ((groups & kBvhOtherGroup) != 0u ? slots << kBvhWidth : 0u);
-    uint stack[2u * kBvhMaxDepth];
+    uint stack[2u * kBvhMaxDepth + kBvhParkedWords];
     uint top = 0u;
     const uint kNoModel = 0xffffffffu;
     uint modelBase = kNoModel;
     BvhRay ray = makeBvhRay(origin, direction, sceneNodes);
+    bool turned = false; // into a model's space
     BVH_TABLE nodes = sceneNodes;
     BVH_TABLE triangles = sceneNodes;
     uint item = 0u;
@@ -106,7 +112,7 @@ void traverseBvh(BVH_TABLE sceneNodes, vec3 origin, vec3 direction, float tMin, 
         bool inner = (child & kBvhLeafBit) == 0u;
         while (inner) {
             uint first;
-            uint met = visitBvhNode(ray.slabs, nodes, child, wanted, tMin, tMax, first);
+            uint met = visitBvhNode(ray, nodes, child, wanted, tMin, tMax, first);
             if (met == 0u)
                 break;
             if ((rest & slots) != 0u)
@@ -135,8 +141,19 @@ void traverseBvh(BVH_TABLE sceneNodes, vec3 origin, vec3 direction, float tMin, 
             if ((instance.mask & mask) != 0u) {
                 if ((rest & slots) != 0u)
                     stack[top++] = rest;
+                turned = (instance.mask & kBvhInPlace) == 0u;
+                if (turned) {
+                    vec3 worldOrigin = fromOrder(ray.triangle.origin, ray.triangle.axes);
+                    vec3 worldDirection = fromOrder(ray.triangle.direction, ray.triangle.axes);
+                    stack[top++] = floatBitsToUint(worldOrigin.x);
+                    stack[top++] = floatBitsToUint(worldOrigin.y);
+                    stack[top++] = floatBitsToUint(worldOrigin.z);
+                    stack[top++] = floatBitsToUint(worldDirection.x);
+                    stack[top++] = floatBitsToUint(worldDirection.y);
+                    stack[top++] = floatBitsToUint(worldDirection.z);
+                    ray = toModelSpace(instance, worldOrigin, worldDirection);
+                }
                 modelBase = top;
-                ray = toModelSpace(instance, origin, direction);
                 nodes = instance.nodes;
                 triangles = instance.triangles;
                 rest = 0u;
@@ -146,13 +163,20 @@ void traverseBvh(BVH_TABLE sceneNodes, vec3 origin, vec3 direction, float tMin, 
         }
         if (slot == kBvhWidth) {
             if ((rest & slots) == 0u) {
-                if (top == modelBase) {
-                    modelBase = kNoModel;
-                    ray = makeBvhRay(origin, direction, sceneNodes);
-                    nodes = sceneNodes;
-                }
+                bool leaves = top == modelBase;
+                if (leaves && turned)
+                    top -= kBvhParkedWords;
                 if (top == 0u)
                     return;
+                if (leaves) {
+                    modelBase = kNoModel;
+                    nodes = sceneNodes;
+                    if (turned)
+                        ray = makeBvhRay(vec3(uintBitsToFloat(stack[top]), uintBitsToFloat(stack[top + 1u]),
+                                              uintBitsToFloat(stack[top + 2u])),
+                                         vec3(uintBitsToFloat(stack[top + 3u]), uintBitsToFloat(stack[top + 4u]),
+                                              uintBitsToFloat(stack[top + 5u])), sceneNodes);
+                }
                 rest = stack[--top];
             }
             uint lowest = rest & (~rest + 1u);

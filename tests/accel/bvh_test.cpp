@@ -322,6 +322,38 @@ TEST(Traversal, NeverVisitsANodeTwice) {
     EXPECT_LE(most, scene.mostVisits());
 }
 
+TEST(Traversal, TreesInPlaceAreMetAsTurnedOnes) {
+    Random random(9);
+    std::vector<vec3> positions;
+    for (int i = 0; i < 300; ++i)
+        positions.push_back(uniformPoint(random, 100));
+    const Bvh bvh = buildSah(triangleBounds(positions));
+    TestScene turned = singleModelScene(bvh, positions), inPlace = turned;
+    // A second one, elsewhere and turned, before and behind: rays come back from it to the first one's space.
+    BvhInstance other = turned.instances[0];
+    other.modelFromWorld[0] = {0, 1, 0, 50};
+    other.modelFromWorld[1] = {-1, 0, 0, -30};
+    other.customIndex = 1;
+    for (TestScene* scene : {&turned, &inPlace}) {
+        scene->instances.push_back(other);
+        scene->buildScene({bvh.bounds, {vec3(-200), vec3(200)}});
+    }
+    inPlace.instances[0].mask |= kBvhInPlace;
+    int hits[2] = {};
+    for (int i = 0; i < 3000; ++i) {
+        const vec3 origin = uniformPoint(random, 150), direction = uniformDirection(random);
+        const TestHit a = traceShader(turned, origin, direction, 0, 1e4f);
+        const TestHit b = traceShader(inPlace, origin, direction, 0, 1e4f);
+        ASSERT_EQ(a.hit, b.hit);
+        ASSERT_EQ(a.t, b.t);
+        ASSERT_EQ(a.triangle, b.triangle);
+        ASSERT_EQ(a.customIndex, b.customIndex);
+        if (a.hit) ++hits[a.customIndex];
+    }
+    EXPECT_GT(hits[0], 100);
+    EXPECT_GT(hits[1], 100);
+}
+
 TEST(Traversal, TrianglesWithoutAreaOrNumbersHideNothing) {
     std::vector<vec3> positions;
     for (int i = 0; i < 200; ++i) {

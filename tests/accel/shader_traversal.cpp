@@ -59,15 +59,9 @@ constexpr bool kBvhDescends = false;
 BvhInstance TestScene::addModel(const Bvh& bvh, std::span<const vec3> positions,
                                 std::span<const TriangleLabel> labels) {
     models.push_back({bvh.nodes, leafTriangles(bvh, positions, labels)});
-    BvhInstance instance{};
-    instance.modelFromWorld[0] = {1, 0, 0, 0};
-    instance.modelFromWorld[1] = {0, 1, 0, 0};
-    instance.modelFromWorld[2] = {0, 0, 1, 0};
-    instance.nodes = reinterpret_cast<uint64_t>(models.back().nodes.data());
-    instance.triangles = reinterpret_cast<uint64_t>(models.back().triangles.data());
-    instance.mask = 0xff;
-    for (uint32_t& masks : instance.partMasks)
-        masks = 0xffffffffu;
+    BvhInstance instance = instanceInPlace(reinterpret_cast<uint64_t>(models.back().nodes.data()),
+                                           reinterpret_cast<uint64_t>(models.back().triangles.data()), 0xff);
+    instance.mask &= ~kBvhInPlace; // tests move it
     return instance;
 }
 

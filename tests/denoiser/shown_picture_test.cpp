@@ -181,5 +181,15 @@ TEST_F(ShownPictureTest, NothingIsInfiniteInAnyPass) {
     }
 }
 
+TEST_F(ShownPictureTest, PlainShadingIsReported) {
+    const auto harness =
+        makeRoom({{"rt_checkFinite", "1"}, {"rt_countWork", "1"}, {"q3rt_wantStats", "1"}, {"rt_illumination", "2"}});
+    harness->draw(kCamera, 5);
+    const auto stats = nlohmann::json::parse(harness->engine().cvars.value("q3rt_stats"));
+    EXPECT_GT(stats.at("rays").get<int>(), kWidth * kHeight);
+    EXPECT_LE(stats.at("rays").get<int>(), 2 * kWidth * kHeight);
+    EXPECT_EQ(stats.at("nonfinite").at("plain"), 0);
+}
+
 } // namespace
 } // namespace q3rt

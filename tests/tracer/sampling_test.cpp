@@ -89,12 +89,14 @@ TEST(TriangleLight, RectangleGivesItsFormFactor) {
     const vec3 down(0, 0, -1);
     const float area = 0.5f * w * h;
     const double expected = cornerRectangle(w, h, d);
-    const vec3 got = meanOverSquare([&](float u, float v) {
-        const vec3 point(0.0f), up(0, 0, 1);
-        return shader::sampleTriangleLight(point, up, a, b - a, c - a, down, area, vec3(1.0f), false, u, v).irradiance +
-               shader::sampleTriangleLight(point, up, a, c - a, e - a, down, area, vec3(1.0f), false, u, v).irradiance;
-    });
-    EXPECT_NEAR(got.x / expected, 1, 1e-3);
+    for (const auto sample : {shader::sampleTriangleLight, shader::sampleTriangleLightByArea}) {
+        const vec3 got = meanOverSquare([&](float u, float v) {
+            const vec3 point(0.0f), up(0, 0, 1);
+            return sample(point, up, a, b - a, c - a, down, area, vec3(1.0f), false, u, v).irradiance +
+                   sample(point, up, a, c - a, e - a, down, area, vec3(1.0f), false, u, v).irradiance;
+        });
+        EXPECT_NEAR(got.x / expected, 1, 1e-3);
+    }
     // Seen from behind it gives nothing, unless it is two-sided.
     EXPECT_EQ(
         shader::sampleTriangleLight(vec3(0, 0, 200), down, a, b - a, c - a, down, area, vec3(1.0f), false, 0.2f, 0.2f)

@@ -74,15 +74,7 @@ struct DeviceTree {
         nodes = upload(device, bvh.nodes);
         triangles = upload(device, leafTriangles(bvh, positions, {}));
         sceneNodes = upload(device, buildSah({&bvh.bounds, 1}, {.maxLeafItems = 1}).nodes);
-        BvhInstance instance{};
-        instance.modelFromWorld[0] = {1, 0, 0, 0};
-        instance.modelFromWorld[1] = {0, 1, 0, 0};
-        instance.modelFromWorld[2] = {0, 0, 1, 0};
-        instance.nodes = nodes.address();
-        instance.triangles = triangles.address();
-        instance.mask = 0xff;
-        instance.partMasks[0] = 0xff;
-        instances = upload(device, std::vector{instance});
+        instances = upload(device, std::vector{instanceInPlace(nodes.address(), triangles.address(), 0xff)});
     }
 };
 
