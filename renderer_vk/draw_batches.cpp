@@ -107,8 +107,23 @@ void DrawListBuilder::appendLights(ViewWork& work, DrawBatch& batch, size_t firs
         target.radius = light.radius;
         target.color = light.color;
         work.out.lights.push_back(target);
-        work.out.lightAdditive.push_back(light.additive ? 1 : 0);
+        work.out.lightDraws.push_back(findLitPart(work, batch, target));
+        work.out.lightDraws.back().additive = light.additive;
     }
+}
+
+LightDraw DrawListBuilder::findLitPart(ViewWork& work, const DrawBatch& batch, const RasterLight& light) {
+    LightDraw lit;
+    lit.firstIndex = batch.firstIndex;
+    lit.indexCount = batch.indexCount;
+    lit.box.to = glm::ivec2(work.view.scene->width, work.view.scene->height);
+    if (!work.settings.cullTriangles) return lit;
+    std::vector<uint32_t>& indices = work.out.indices;
+    lit.firstIndex = static_cast<uint32_t>(indices.size());
+    lit.box = appendLitTriangles(triangleView(work, batch), light, verticesOf(work, batch), indices, batch.firstIndex,
+                                 batch.indexCount);
+    lit.indexCount = static_cast<uint32_t>(indices.size()) - lit.firstIndex;
+    return lit;
 }
 
 void DrawListBuilder::appendItemIndices(ViewWork& work, const Item& item) {
@@ -190,18 +205,23 @@ void DrawListBuilder::appendBatch(ViewWork& work, size_t firstItem, size_t lastI
     batch.source = last.fromWorld ? VertexSource::World : VertexSource::Dynamic;
     batch.firstIndex = static_cast<uint32_t>(work.out.indices.size());
     batch.entity = entityIndex(work, last.entity);
+    const bool heldInHand = (record.flags & entityFlag::kDepthHack) != 0;
+    batch.firstOccluder = static_cast<uint32_t>(work.out.occluders.size());
+    const bool covers = !work.view.portal && coversWhatIsBehind(material);
+    batch.depthFirst = covers && last.fromWorld;
+    batch.nearest = covers && heldInHand;
     for (size_t i = firstItem; i < lastItem; ++i) {
         const size_t firstIndex = work.out.indices.size();
         appendItemIndices(work, work.items[i]);
         if (work.settings.cullTriangles) cullTriangles(work, batch, material.cull, firstIndex);
     }
+    batch.occluderCount = static_cast<uint32_t>(work.out.occluders.size()) - batch.firstOccluder;
     batch.indexCount = static_cast<uint32_t>(work.out.indices.size()) - batch.firstIndex;
     if (batch.indexCount == 0) return;
     batch.stages = m_stages.evaluate(id, record.stage);
     batch.fog = fogIndex(work, last.fog);
-    batch.depthFirst = last.fromWorld && !work.view.portal && coversWhatIsBehind(material);
     batch.erasesShadows = work.settings.geometry.shadows == Shadows::Volume && material.sort > kShadowVolumeSort;
-    if (record.flags & entityFlag::kDepthHack) batch.depthRange = DepthRange::Weapon;
+    if (heldInHand) batch.depthRange = DepthRange::Weapon;
     constexpr uint32_t kUnlit = surfaceParm::kNoDlight | surfaceParm::kSky;
     if (material.sort <= 3 && (material.surfaceFlags & kUnlit) == 0) appendLights(work, batch, firstItem, lastItem);
     work.out.batches.push_back(batch);
@@ -209,14 +229,23 @@ void DrawListBuilder::appendBatch(ViewWork& work, size_t firstItem, size_t lastI
 }
 
 void DrawListBuilder::cullTriangles(ViewWork& work, const DrawBatch& batch, CullMode cull, size_t firstIndex) {
+    TriangleView view = triangleView(work, batch);
+    view.cull = cull;
+    m_culler.cull(view, verticesOf(work, batch), work.out.indices, firstIndex,
+                  batch.depthFirst ? &work.out.occluders : nullptr);
+}
+
+TriangleView DrawListBuilder::triangleView(const ViewWork& work, const DrawBatch& batch) const {
     TriangleView view;
     view.clipFromModel = work.out.entities[batch.entity].clipFromModel;
     view.sizePx = vec2(work.view.scene->width, work.view.scene->height);
-    view.cull = cull;
     view.mirrored = work.view.mirrored;
     view.manySamples = work.settings.raster.r_ext_multisample > 0;
-    m_culler.cull(view, batch.source == VertexSource::World ? m_world->vertices : work.out.vertices, work.out.indices,
-                  firstIndex);
+    return view;
+}
+
+const std::vector<Vertex>& DrawListBuilder::verticesOf(const ViewWork& work, const DrawBatch& batch) const {
+    return batch.source == VertexSource::World ? m_world->vertices : work.out.vertices;
 }
 
 void DrawListBuilder::findSkyCoverage(ViewWork& work, size_t firstItem, size_t lastItem) {

@@ -14,9 +14,10 @@ StageState colorStage(const vec4& color) {
 void FrameDrawData::reserve() {
     vertices.reserve(busyFrame::kVertices);
     indices.reserve(busyFrame::kIndices);
+    occluders.reserve(busyFrame::kIndices);
     entities.reserve(busyFrame::kEntities);
     lights.reserve(busyFrame::kSurfaces);
-    lightAdditive.reserve(busyFrame::kSurfaces);
+    lightDraws.reserve(busyFrame::kSurfaces);
     fogs.reserve(busyFrame::kSmall);
     ownStages.reserve(busyFrame::kSmall);
     batches.reserve(busyFrame::kSurfaces);
@@ -27,9 +28,10 @@ void FrameDrawData::reserve() {
 void FrameDrawData::clear() {
     vertices.clear();
     indices.clear();
+    occluders.clear();
     entities.clear();
     lights.clear();
-    lightAdditive.clear();
+    lightDraws.clear();
     fogs.clear();
     ownStages.clear();
     batches.clear();

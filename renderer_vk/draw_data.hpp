@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer_vk/flares.hpp"
+#include "renderer_vk/lit_region.hpp"
 #include "scene/material.hpp"
 #include "scene/stage_table.hpp"
 #include "shaders/shared/raster.h"
@@ -40,14 +41,24 @@ struct DrawBatch {
     StageRange stages;           ///< first may have kOwnStageBit
     OwnDraw own = OwnDraw::None; ///< draw with this state, not with the material's stages
     StageRange clouds;           ///< laid over a sky box in its pass
+    bool nearest = false;        ///< opaque, and nothing is nearer: it may be drawn before everything else
     bool depthFirst = false;     ///< its depth may be drawn before everything else of the view
     bool erasesShadows = false;  ///< each pass counts down in the stencil
     VertexSource source = VertexSource::World;
     DepthRange depthRange = DepthRange::Normal;
     uint32_t entity = 0; ///< in FrameDrawData::entities
     uint32_t firstIndex = 0, indexCount = 0;
-    uint32_t firstLight = 0, lightCount = 0; ///< in FrameDrawData::lights, and the additive flags beside them
+    uint32_t firstOccluder = 0,
+             occluderCount = 0;              ///< in FrameDrawData::occluders: if its depth is drawn first, of this
+    uint32_t firstLight = 0, lightCount = 0; ///< in FrameDrawData::lightDraws
     int fog = -1;                            ///< in FrameDrawData::fogs, -1 none
+};
+
+/// A dynamic light over a batch.
+struct LightDraw {
+    bool additive = false;
+    uint32_t firstIndex = 0, indexCount = 0; ///< what it brightens of the batch
+    PixelBox box;                            ///< where
 };
 
 /// One view (or the portal view before it) as batches.
@@ -83,9 +94,10 @@ struct ViewCounts {
 struct FrameDrawData {
     std::vector<Vertex> vertices; ///< VertexSource::Dynamic
     std::vector<uint32_t> indices;
+    std::vector<uint32_t> occluders; ///< indices too; on the GPU they follow them
     std::vector<RasterEntity> entities;
     std::vector<RasterLight> lights;
-    std::vector<uint8_t> lightAdditive; ///< parallel to lights
+    std::vector<LightDraw> lightDraws; ///< parallel to lights
     std::vector<RasterFog> fogs;
     std::vector<StageState> ownStages;
     std::vector<DrawBatch> batches;

@@ -65,13 +65,15 @@ std::string DrawListBuilder::describeCounts(int kind, const FrameDrawData& data)
     std::set<uint32_t> textures;
     for (const DrawBatch& batch : data.batches) {
         triangles += batch.indexCount / 3;
-        allTriangles += batch.indexCount / 3 * (batch.stages.count + batch.lightCount + (batch.fog >= 0 ? 1 : 0));
-        lightTriangles += batch.indexCount / 3 * batch.lightCount;
+        allTriangles += batch.indexCount / 3 * (batch.stages.count + (batch.fog >= 0 ? 1 : 0));
+        for (uint32_t i = 0; i < batch.lightCount; ++i)
+            lightTriangles += data.lightDraws[batch.firstLight + i].indexCount / 3;
         if (batch.own != OwnDraw::None) continue;
         for (uint32_t i = 0; i < batch.stages.count; ++i)
             for (const TextureUnitState& unit : m_stages.states()[batch.stages.first + i].unit)
                 textures.insert(unit.texture);
     }
+    allTriangles += lightTriangles;
     for (const uint32_t id : textures) {
         const MipLevel& level = m_stages.textures().get(id).levels.front();
         texels += static_cast<size_t>(level.width) * static_cast<size_t>(level.height);

@@ -85,6 +85,8 @@ class DrawListBuilder {
     void makeBatches(ViewWork& work);
     void appendBatch(ViewWork& work, size_t firstItem, size_t lastItem);
     void findSkyCoverage(ViewWork& work, size_t firstItem, size_t lastItem);
+    TriangleView triangleView(const ViewWork& work, const DrawBatch& batch) const;
+    const std::vector<Vertex>& verticesOf(const ViewWork& work, const DrawBatch& batch) const;
     void cullTriangles(ViewWork& work, const DrawBatch& batch, CullMode cull, size_t firstIndex);
     void appendSky(ViewWork& work, const Material& material, MaterialId id, size_t firstItem, size_t lastItem);
     void appendShadowVolumes(ViewWork& work);
@@ -101,6 +103,7 @@ class DrawListBuilder {
     int fogIndex(ViewWork& work, int fog);
     bool touchWorldLights(const ViewWork& work, size_t place);
     void appendLights(ViewWork& work, DrawBatch& batch, size_t firstItem, size_t lastItem);
+    LightDraw findLitPart(ViewWork& work, const DrawBatch& batch, const RasterLight& light);
     MaterialId drawnId(MaterialId id) const;
 
     const MaterialLibrary& m_materials;

@@ -11,8 +11,6 @@ namespace q3rt {
 namespace {
 
 constexpr VkDeviceSize kStorageAlignment = 256; // the largest that Vulkan lets a device ask for
-// Weapons keep to the nearest part of the depth range, so that they never reach into walls.
-constexpr float kWeaponDepth = 0.3f;
 
 DescriptorLayout makeFrameLayout(Device& device) {
     return DescriptorLayout(device,
@@ -25,28 +23,6 @@ DescriptorLayout makeFrameLayout(Device& device) {
 
 BufferInfo streamInfo(VkDeviceSize size, VkBufferUsageFlags usage, const char* name) {
     return {.size = size, .usage = usage, .domain = MemoryDomain::Upload, .name = name};
-}
-
-VkViewport viewportOf(const ViewDraw& view, DepthRange range) {
-    VkViewport viewport{static_cast<float>(view.x),
-                        static_cast<float>(view.y),
-                        static_cast<float>(view.width),
-                        static_cast<float>(view.height),
-                        0.0f,
-                        1.0f};
-    if (range == DepthRange::Weapon) viewport.maxDepth = kWeaponDepth;
-    if (range == DepthRange::Far) viewport.minDepth = 1.0f;
-    if (range == DepthRange::Near) viewport.maxDepth = 0.0f;
-    return viewport;
-}
-
-/// The view's rectangle inside the target; empty (0 wide) if none of it is.
-VkRect2D scissorOf(const ViewDraw& view, VkExtent2D extent) {
-    const int left = std::clamp(view.x, 0, static_cast<int>(extent.width));
-    const int top = std::clamp(view.y, 0, static_cast<int>(extent.height));
-    const int right = std::clamp(view.x + view.width, left, static_cast<int>(extent.width));
-    const int bottom = std::clamp(view.y + view.height, top, static_cast<int>(extent.height));
-    return {{left, top}, {static_cast<uint32_t>(right - left), static_cast<uint32_t>(bottom - top)}};
 }
 
 void writeTargets(PassBuilder& pass, FrameTargets& targets) {
@@ -67,12 +43,6 @@ Attachment colorAttachment(PassContext& pass, const FrameTargets& targets) {
     return {.view = pass.view(targets.samples), .resolve = pass.view(targets.color)};
 }
 
-/// What the command buffer has now, so that equal state is not set again.
-struct RasterScene::BoundState {
-    const GraphicsPipeline* pipeline = nullptr;
-    int source = -1, range = -1, cull = -1, offset = -1;
-};
-
 RasterScene::RasterScene(GpuContext& context)
     : m_context(context)
     , m_frameLayout(makeFrameLayout(context.device()))
@@ -91,8 +61,7 @@ RasterScene::RasterScene(GpuContext& context)
           streamInfo(busyFrame::kStages * sizeof(StageState), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "storage stream"),
           context.ring().framesInFlight())
     , m_flareQueries(context.device(), context.ring().framesInFlight())
-    , m_askedFlares(context.ring().framesInFlight())
-    , m_bound(std::make_unique<BoundState>()) {
+    , m_askedFlares(context.ring().framesInFlight()) {
     if (TargetImages* scaled = context.scaledWorld())
         m_upscaler = std::make_unique<Upscaler>(context.device(), *scaled, context.main());
 }
@@ -138,6 +107,7 @@ void RasterScene::dropContent() {
 void RasterScene::beginFrame(const DrawListSettings& listSettings) {
     const RasterSettings& settings = listSettings.raster;
     m_cullPictures = listSettings.cullTriangles && settings.r_ext_multisample <= 1;
+    m_occludersListed = listSettings.cullTriangles;
     m_debugSort = settings.r_debugSort;
     m_showEdges = settings.r_showtris != 0;
     if (m_showEdges && !m_context.device().capabilities().fillModeNonSolid) {
@@ -241,6 +211,8 @@ void RasterScene::uploadFrame() {
         m_askedFlares[m_context.ring().slot()].push_back(test.key);
     m_flareQueries.reserve(m_context.ring().commands(), static_cast<uint32_t>(m_data.flareTests.size()));
     m_vertexSlice = m_vertexStream.append(std::span<const Vertex>(m_data.vertices));
+    m_firstOccluder = static_cast<uint32_t>(m_data.indices.size());
+    m_data.indices.insert(m_data.indices.end(), m_data.occluders.begin(), m_data.occluders.end());
     m_indexSlice = m_indexStream.append(std::span<const uint32_t>(m_data.indices));
     if (m_showEdges) {
         m_edgeStage = static_cast<uint32_t>(m_data.ownStages.size());
@@ -261,220 +233,6 @@ void RasterScene::uploadFrame() {
     m_entitySlice = m_storageStream.append(std::span<const RasterEntity>(m_data.entities), kStorageAlignment);
     m_lightSlice = m_storageStream.append(std::span<const RasterLight>(m_data.lights), kStorageAlignment);
     m_fogSlice = m_storageStream.append(std::span<const RasterFog>(m_data.fogs), kStorageAlignment);
-}
-
-void RasterScene::bindFrame(PassContext& pass) {
-    if (m_frameSet == VK_NULL_HANDLE) {
-        const auto bind = [](uint32_t slot, const BufferSlice& slice) {
-            return bindStorageBuffer(slot, slice.buffer, slice.offset, slice.size);
-        };
-        m_frameSet = pass.makeSet(
-            m_frameLayout, {bind(0, m_stageSlice), bind(1, m_entitySlice), bind(2, m_lightSlice), bind(3, m_fogSlice)});
-    }
-    *m_bound = BoundState{};
-    vkCmdBindIndexBuffer(pass.commands(), m_indexSlice.buffer, m_indexSlice.offset, VK_INDEX_TYPE_UINT32);
-}
-
-void RasterScene::recordViews(PassContext& pass, FrameTargets targets, uint32_t firstView, uint32_t viewCount) {
-    const Attachment color = colorAttachment(pass, targets);
-    const Attachment depth{.view = pass.view(targets.depth), .stencil = true};
-    beginRendering(pass.commands(), pass.extent(targets.color), color, depth);
-    bindFrame(pass);
-    for (uint32_t i = 0; i < viewCount; ++i)
-        recordView(pass, m_data.views[firstView + i], pass.extent(targets.color));
-    vkCmdEndRenderingKHR(pass.commands());
-}
-
-void RasterScene::recordView(PassContext& pass, const ViewDraw& view, VkExtent2D extent) {
-    const VkRect2D scissor = scissorOf(view, extent);
-    if (scissor.extent.width == 0 || scissor.extent.height == 0) return;
-    vkCmdSetScissor(pass.commands(), 0, 1, &scissor);
-    m_bound->range = -1;
-    constexpr VkImageAspectFlags kDepthStencil = VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
-    VkClearAttachment clears[2] = {};
-    uint32_t clearCount = 0;
-    if (view.clearDepth) clears[clearCount++] = {kDepthStencil, 0, {.depthStencil = {1.0f, 0}}};
-    if (view.clearColor) {
-        const float grey = view.clearGrey;
-        clears[clearCount++] = {VK_IMAGE_ASPECT_COLOR_BIT, 0, {.color = {.float32 = {grey, grey, grey, 1.0f}}}};
-    }
-    const VkClearRect area{scissor, 0, 1};
-    if (clearCount > 0) vkCmdClearAttachments(pass.commands(), clearCount, clears, 1, &area);
-    if (m_depthFirst && depthFirstPays(view)) recordDepth(pass.commands(), view);
-    for (uint32_t i = 0; i < view.batchCount; ++i) {
-        const DrawBatch& batch = m_data.batches[view.firstBatch + i];
-        recordBatch(pass.commands(), view, batch);
-        if (m_showEdges && batch.own == OwnDraw::None) recordEdges(pass.commands(), view, batch);
-    }
-    recordFlareTests(pass.commands(), view);
-}
-
-/// A vertex costs about what a pixel does: a small picture is shaded sooner than its depth is drawn.
-bool RasterScene::depthFirstPays(const ViewDraw& view) const {
-    size_t vertices = 0;
-    for (const DrawBatch& batch : std::span(m_data.batches).subspan(view.firstBatch, view.batchCount))
-        if (batch.depthFirst) vertices += batch.indexCount;
-    return vertices < static_cast<size_t>(view.width) * static_cast<size_t>(view.height);
-}
-
-void RasterScene::recordDepth(VkCommandBuffer commands, const ViewDraw& view) {
-    const std::span<const DrawBatch> batches = std::span(m_data.batches).subspan(view.firstBatch, view.batchCount);
-    for (size_t i = 0; i < batches.size();) {
-        DrawBatch run = batches[i++];
-        if (!run.depthFirst) continue;
-        const CullMode cull = m_materials->get(run.material).cull;
-        for (; i < batches.size() && batches[i].depthFirst && batches[i].entity == run.entity &&
-               batches[i].depthRange == run.depthRange && m_materials->get(batches[i].material).cull == cull;
-             ++i)
-            run.indexCount += batches[i].indexCount;
-        RasterDraw constants{};
-        constants.entity = run.entity;
-        constants.pass = kPassDepth;
-        draw(commands, depthKey(), constants, run, false, cull, view);
-    }
-}
-
-void RasterScene::recordEdges(VkCommandBuffer commands, const ViewDraw& view, DrawBatch batch) {
-    batch.depthRange = DepthRange::Near;
-    batch.erasesShadows = false;
-    RasterDraw constants{};
-    constants.entity = batch.entity;
-    constants.stage = m_tableStageCount + m_edgeStage;
-    draw(commands, edgesKey(view.clipped), constants, batch, false, m_materials->get(batch.material).cull, view);
-}
-
-const std::vector<StagePass>& RasterScene::stagePasses(MaterialId id) {
-    while (m_stagePasses.size() <= id) {
-        const auto next = static_cast<MaterialId>(m_stagePasses.size());
-        m_stagePasses.push_back(findStagePasses(m_materials->get(next), m_mergeStages));
-    }
-    return m_stagePasses[id];
-}
-
-void RasterScene::recordBatch(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch) {
-    const Material& material = m_materials->get(batch.material);
-    RasterDraw constants{};
-    constants.entity = batch.entity;
-    if (batch.own != OwnDraw::None) {
-        recordOwn(commands, view, batch, constants);
-        return;
-    }
-    if (batch.fog >= 0) constants.fog = static_cast<uint32_t>(batch.fog);
-    for (const StagePass& pass : stagePasses(batch.material)) {
-        const Stage& first = material.stages[pass.firstStage];
-        constants.stage = batch.stages.first + pass.firstStage;
-        constants.layerStage = constants.stage + 1;
-        const bool mayBeLeftOut = pass.stageCount == 1 && !batch.erasesShadows;
-        if (mayBeLeftOut && changesNothing(first, m_stages->states()[constants.stage])) continue;
-        constants.useFog = batch.fog >= 0 && first.fogFade != FogFade::None ? 1 : 0;
-        draw(commands, passKey(material.stages, pass, view.clipped), constants, batch, material.polygonOffset,
-             material.cull, view);
-    }
-    constants.useFog = 0;
-    for (uint32_t i = 0; i < batch.lightCount; ++i) {
-        constants.pass = kPassLight;
-        constants.light = batch.firstLight + i;
-        const bool additive = m_data.lightAdditive[constants.light] != 0;
-        draw(commands, lightKey(additive, view.clipped), constants, batch, material.polygonOffset, material.cull, view);
-    }
-    const bool opaque = material.sort <= 3;
-    if (batch.fog >= 0 && (opaque || (material.contentFlags & surfaceParm::kContentsFog) != 0)) {
-        constants.pass = kPassFog;
-        draw(commands, fogKey(opaque, view.clipped), constants, batch, material.polygonOffset, material.cull, view);
-    }
-}
-
-void RasterScene::recordFlares(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch) {
-    const Material& material = m_materials->get(batch.material);
-    RasterDraw constants{};
-    constants.entity = batch.entity;
-    for (size_t i = 0; i < std::min<size_t>(material.stages.size(), batch.stages.count); ++i) {
-        constants.stage = batch.stages.first + static_cast<uint32_t>(i);
-        draw(commands, flareKey(material.stages[i]), constants, batch, false, CullMode::None, view);
-    }
-}
-
-void RasterScene::recordFlareTests(VkCommandBuffer commands, const ViewDraw& view) {
-    DrawBatch pixel;
-    pixel.source = VertexSource::Dynamic;
-    pixel.indexCount = 6;
-    RasterDraw constants{};
-    constants.entity = view.flareEntity;
-    constants.pass = kPassDepth;
-    for (uint32_t i = view.firstFlareTest; i < view.firstFlareTest + view.flareTestCount; ++i) {
-        pixel.firstIndex = m_data.flareTests[i].firstIndex;
-        m_flareQueries.begin(commands, i);
-        draw(commands, flareTestKey(), constants, pixel, false, CullMode::None, view);
-        m_flareQueries.end(commands, i);
-    }
-}
-
-void RasterScene::recordOwn(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch,
-                            RasterDraw constants) {
-    constants.stage = m_tableStageCount + (batch.stages.first & ~kOwnStageBit);
-    switch (batch.own) {
-    case OwnDraw::SkyBox:
-        constants.layerStage = batch.clouds.first;
-        draw(commands,
-             batch.clouds.count > 0 ? skyBoxKey(view.clipped, m_materials->get(batch.material).stages)
-                                    : skyBoxKey(view.clipped),
-             constants, batch, false, CullMode::Front, view);
-        break;
-    case OwnDraw::ShadowVolume:
-        draw(commands, shadowVolumeKey(true, view.clipped), constants, batch, false, CullMode::Back, view);
-        draw(commands, shadowVolumeKey(false, view.clipped), constants, batch, false, CullMode::Front, view);
-        break;
-    case OwnDraw::ShadowShade:
-        draw(commands, shadowShadeKey(), constants, batch, false, CullMode::None, view);
-        break;
-    case OwnDraw::Normals:
-        draw(commands, normalsKey(view.clipped), constants, batch, false, CullMode::None, view);
-        break;
-    case OwnDraw::Flares:
-        recordFlares(commands, view, batch);
-        break;
-    case OwnDraw::Overlay:
-    case OwnDraw::None:
-        draw(commands, overlayKey(), constants, batch, false, CullMode::None, view);
-        break;
-    }
-}
-
-void RasterScene::draw(VkCommandBuffer commands, const StateKey& key, const RasterDraw& constants,
-                       const DrawBatch& batch, bool polygonOffset, CullMode cull, const ViewDraw& view) {
-    const GraphicsPipeline& pipeline = m_pipelines.find(batch.erasesShadows ? erasingShadows(key) : key);
-    if (m_bound->pipeline != &pipeline) {
-        pipeline.bind(commands);
-        if (!m_bound->pipeline) pipeline.bindSets(commands, {m_frameSet, m_context.textures().set()});
-        m_bound->pipeline = &pipeline;
-    }
-    if (m_bound->source != static_cast<int>(batch.source)) {
-        m_bound->source = static_cast<int>(batch.source);
-        const bool world = batch.source == VertexSource::World;
-        const VkBuffer buffer = world ? m_worldVertices.handle() : m_vertexSlice.buffer;
-        const VkDeviceSize offset = world ? 0 : m_vertexSlice.offset;
-        vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
-    }
-    if (m_bound->range != static_cast<int>(batch.depthRange)) {
-        m_bound->range = static_cast<int>(batch.depthRange);
-        const VkViewport viewport = viewportOf(view, batch.depthRange);
-        vkCmdSetViewport(commands, 0, 1, &viewport);
-    }
-    const int cullState = static_cast<int>(cull) * 2 + (view.mirrored ? 1 : 0);
-    if (m_bound->cull != cullState) {
-        m_bound->cull = cullState;
-        // Clockwise on the screen is the front; a mirror turns it round.
-        vkCmdSetFrontFaceEXT(commands, view.mirrored ? VK_FRONT_FACE_COUNTER_CLOCKWISE : VK_FRONT_FACE_CLOCKWISE);
-        vkCmdSetCullModeEXT(commands, cull == CullMode::None    ? VK_CULL_MODE_NONE
-                                      : cull == CullMode::Front ? VK_CULL_MODE_BACK_BIT
-                                                                : VK_CULL_MODE_FRONT_BIT);
-    }
-    if (m_bound->offset != (polygonOffset ? 1 : 0)) {
-        m_bound->offset = polygonOffset ? 1 : 0;
-        vkCmdSetDepthBias(commands, polygonOffset ? m_offsetUnits : 0.0f, 0.0f, polygonOffset ? m_offsetFactor : 0.0f);
-    }
-    pipeline.push(commands, constants);
-    vkCmdDrawIndexed(commands, batch.indexCount, 1, batch.firstIndex, 0, 0);
 }
 
 } // namespace q3rt

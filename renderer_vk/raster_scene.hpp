@@ -71,6 +71,8 @@ class RasterScene {
   private:
     void recordViews(PassContext& pass, FrameTargets targets, uint32_t firstView, uint32_t viewCount);
     void recordView(PassContext& pass, const ViewDraw& view, VkExtent2D extent);
+    std::span<const DrawBatch> batchesOf(const ViewDraw& view) const;
+    DrawBatch depthOf(DrawBatch batch) const;
     bool depthFirstPays(const ViewDraw& view) const;
     void recordDepth(VkCommandBuffer commands, const ViewDraw& view);
     void recordFlares(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch);
@@ -78,6 +80,7 @@ class RasterScene {
     void readFlareTests(uint32_t slot);
     void recordEdges(VkCommandBuffer commands, const ViewDraw& view, DrawBatch batch);
     void recordBatch(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch);
+    void recordLights(VkCommandBuffer commands, const ViewDraw& view, DrawBatch batch, RasterDraw constants);
     const std::vector<StagePass>& stagePasses(MaterialId id);
     void recordOwn(VkCommandBuffer commands, const ViewDraw& view, const DrawBatch& batch, RasterDraw constants);
     void draw(VkCommandBuffer commands, const StateKey& key, const RasterDraw& constants, const DrawBatch& batch,
@@ -116,13 +119,21 @@ class RasterScene {
     std::vector<std::vector<FlareKey>> m_askedFlares;  ///< by slot of the ring
     std::vector<std::vector<StagePass>> m_stagePasses; ///< by material, as far as they were asked for
     bool m_mergeStages = true;
+    bool m_occludersListed = false; ///< of batches whose depth is drawn first
     bool m_depthFirst = false, m_showEdges = false;
-    uint32_t m_edgeStage = 0; ///< of FrameDrawData::ownStages
+    uint32_t m_edgeStage = 0;     ///< of FrameDrawData::ownStages
+    uint32_t m_firstOccluder = 0; ///< where FrameDrawData::occluders begin among the indices on the GPU
     float m_debugSort = 0;
     bool m_cullPictures = false; ///< leave out those that no pixel shows
     float m_offsetFactor = -1, m_offsetUnits = -2;
-    struct BoundState;
-    std::unique_ptr<BoundState> m_bound;
+    /// What the command buffer has now, so that equal state is not set again.
+    struct BoundState {
+        void setScissor(VkCommandBuffer commands, const VkRect2D& wanted);
+        const GraphicsPipeline* pipeline = nullptr;
+        int source = -1, range = -1, cull = -1, offset = -1;
+        VkRect2D scissor{};
+    };
+    BoundState m_bound;
 };
 
 } // namespace q3rt

@@ -20,6 +20,9 @@ constexpr uint32_t kUnknown = 32; // no place on the screen
 
 constexpr int kFewSamples = 8; // a triangle whose box holds more nearly always covers one
 
+// A smaller triangle hides less than its depth costs: any value from 100 to 1500 serves as well.
+constexpr float kLargePx = 400;
+
 /// Samples of one axis of the view that may lie in [least, greatest]; none if last < first.
 struct SampleRange {
     SampleRange(float least, float greatest, float slackPx, float sizePx)
@@ -57,6 +60,11 @@ TriangleCuller::ScreenVertex TriangleCuller::project(const TriangleView& view, c
     return result;
 }
 
+bool TriangleCuller::large(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) {
+    if ((a.outside | b.outside | c.outside) & (kUnknown | kNear)) return true;
+    return std::abs(cross(b.px - a.px, c.px - a.px)) >= 2.0f * kLargePx;
+}
+
 bool TriangleCuller::shows(const TriangleView& view, const ScreenVertex& a, const ScreenVertex& b,
                            const ScreenVertex& c) {
     if (a.outside & b.outside & c.outside & ~kUnknown) return false;
@@ -89,7 +97,7 @@ bool TriangleCuller::shows(const TriangleView& view, const ScreenVertex& a, cons
 }
 
 void TriangleCuller::cull(const TriangleView& wanted, std::span<const Vertex> vertices, std::vector<uint32_t>& indices,
-                          size_t first) {
+                          size_t first, std::vector<uint32_t>* occluders) {
     if (first >= indices.size()) return;
     const TriangleView view = wanted; // a copy that nothing written here may be: its part of the work is done once
     const auto range = std::minmax_element(indices.begin() + static_cast<std::ptrdiff_t>(first), indices.end());
@@ -100,7 +108,9 @@ void TriangleCuller::cull(const TriangleView& wanted, std::span<const Vertex> ve
     size_t kept = first;
     for (size_t i = first; i + 2 < indices.size(); i += 3) {
         const uint32_t a = indices[i], b = indices[i + 1], c = indices[i + 2];
-        if (!shows(view, m_screen[a - least], m_screen[b - least], m_screen[c - least])) continue;
+        const ScreenVertex &onA = m_screen[a - least], &onB = m_screen[b - least], &onC = m_screen[c - least];
+        if (!shows(view, onA, onB, onC)) continue;
+        if (occluders && large(onA, onB, onC)) occluders->insert(occluders->end(), {a, b, c});
         indices[kept] = a;
         indices[kept + 1] = b;
         indices[kept + 2] = c;

@@ -27,7 +27,9 @@ class TriangleCuller {
     TriangleCuller();
     /// Removes from `indices`, beginning at `first`, the triangles that are wholly outside the view, turn their hidden
     /// side to the eye or lie between samples. What the driver's rounding might decide otherwise is kept.
-    void cull(const TriangleView& view, std::span<const Vertex> vertices, std::vector<uint32_t>& indices, size_t first);
+    /// Those that stay and are large, so that much may lie behind them, are appended to `occluders`, if there is one.
+    void cull(const TriangleView& view, std::span<const Vertex> vertices, std::vector<uint32_t>& indices, size_t first,
+              std::vector<uint32_t>* occluders = nullptr);
 
   private:
     struct ScreenVertex {
@@ -35,6 +37,7 @@ class TriangleCuller {
         uint32_t outside; ///< a bit for each side of the view, and kUnknown
     };
     static ScreenVertex project(const TriangleView& view, const vec3& position);
+    static bool large(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c);
     static bool shows(const TriangleView& view, const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c);
     std::vector<ScreenVertex> m_screen;
 };
