@@ -58,16 +58,24 @@ double measureMs(TradeSession& session, size_t viewCount, const TradePoint& poin
     return sum / double(viewCount);
 }
 
-/// Lights that a frame tries, mean over views.
-double countLights(TradeSession& session, size_t viewCount, const TradePoint& point) {
-    session.apply(point);
-    double sum = 0;
+struct LightWork {
+    double tried = 0; ///< lights
+    double rays = 0;
+};
+
+/// What a frame does, mean over views.
+LightWork countWork(TradeSession& session, size_t viewCount, std::map<std::string, std::string> settings) {
+    settings["rt_countWork"] = "1";
+    session.apply(makePoint(kSize, settings));
+    LightWork mean;
     for (size_t view = 0; view < viewCount; ++view) {
         session.approach(view, kSettle);
         session.draw(view, true);
-        sum += nlohmann::json::parse(session.stats()).at("work").at("lights_tried").get<double>();
+        const auto stats = nlohmann::json::parse(session.stats());
+        mean.tried += stats.at("work").at("lights_tried").get<double>() / double(viewCount);
+        mean.rays += stats.at("rays").get<double>() / double(viewCount);
     }
-    return sum / double(viewCount);
+    return mean;
 }
 
 struct MapFacts {
@@ -98,24 +106,33 @@ std::vector<std::string> spawnPlaces(const MapFacts& facts, size_t most) {
 
 // --- culling
 
+/// `| time ratio of a count's ratio: quotient |`, without culling over with it.
+void printQuotient(double timeRatio, double countRatio) {
+    std::printf(" %.2f of %.2f: %.2f |", timeRatio, countRatio, timeRatio / countRatio);
+}
+
 void benchCulling(const std::string& map, const MapFacts& facts) {
     const auto source = openMapSource({.map = map, .places = spawnPlaces(facts, 4)}, {});
     const size_t views = source->viewNames().size();
     TradeSession session(*source, findModule("rt"), false);
-    const double unlit = measureMs(session, views, makePoint(kSize, {{"rt_illumination", "0"}}));
-    double tried[3] = {}, ms[3] = {};
+    const std::map<std::string, std::string> unlit = {{"rt_illumination", "0"}};
+    const double unlitMs = measureMs(session, views, makePoint(kSize, unlit));
+    const double looks = countWork(session, views, unlit).rays;
+    double tried[3] = {}, rays[3] = {}, ms[3] = {};
     for (int cull = 0; cull < 3; ++cull) {
-        std::map<std::string, std::string> settings = {{"rt_numRandomDL", "0"},
-                                                       {"rt_cullLights", std::to_string(cull)}};
-        ms[cull] = measureMs(session, views, makePoint(kSize, settings)) - unlit;
-        settings["rt_countWork"] = "1";
-        tried[cull] = countLights(session, views, makePoint(kSize, settings)) / kSize.width / kSize.height;
+        const std::map<std::string, std::string> settings = {{"rt_numRandomDL", "0"},
+                                                             {"rt_cullLights", std::to_string(cull)}};
+        ms[cull] = measureMs(session, views, makePoint(kSize, settings)) - unlitMs;
+        const LightWork work = countWork(session, views, settings);
+        tried[cull] = work.tried / kSize.width / kSize.height;
+        rays[cull] = (work.rays - looks) / kSize.width / kSize.height;
     }
-    std::printf("| %s | %zu | %.2f | %.0f, %.0f, %.0f | %.0f, %.0f, %.0f |", map.c_str(), facts.triangleLights,
-                facts.visibleShare, tried[0], tried[1], tried[2], ms[0], ms[1], ms[2]);
-    for (const int cull : {1, 2})
-        std::printf(" %.2f of %.2f: %.2f |", ms[0] / ms[cull], tried[0] / tried[cull],
-                    ms[0] / ms[cull] / (tried[0] / tried[cull]));
+    std::printf("| %s | %zu | %.2f | %.0f, %.0f, %.0f | %.1f, %.1f, %.1f | %.0f, %.0f, %.0f |", map.c_str(),
+                facts.triangleLights, facts.visibleShare, tried[0], tried[1], tried[2], rays[0], rays[1], rays[2],
+                ms[0], ms[1], ms[2]);
+    printQuotient(ms[0] / ms[1], tried[0] / tried[1]);
+    printQuotient(ms[0] / ms[1], rays[0] / rays[1]);
+    printQuotient(ms[0] / ms[2], tried[0] / tried[2]);
     std::printf("\n");
     std::fflush(stdout);
 }
@@ -125,9 +142,9 @@ void runCulling(Pk3FileSource& files, std::vector<std::string> maps) {
     if (!chosen)
         for (const std::string& name : files.list("maps", ".bsp"))
             maps.push_back(name.substr(0, name.size() - 4));
-    std::printf("| map | triangle lights | visible share | lights tried a pixel, rt_cullLights 0, 1, 2 | ms of light "
-                "| time 0 / 1 | 0 / 2 |\n");
-    std::printf("|---|---|---|---|---|---|---|\n");
+    std::printf("| map | triangle lights | visible share | lights tried a pixel, rt_cullLights 0, 1, 2 | shadow rays "
+                "| ms of light | time 0 / 1 of lights | of rays | 0 / 2 of lights |\n");
+    std::printf("|---|---|---|---|---|---|---|---|---|\n");
     for (const std::string& map : maps) {
         const MapFacts facts = findFacts(files, map);
         if (facts.spawnPoints == 0) continue;
