@@ -40,8 +40,8 @@ class Denoiser {
     virtual const Buffer* gradients() const { return nullptr; }
 };
 
-/// Null for None. `pipelines` outlives the result; null only for None.
-std::unique_ptr<Denoiser> makeDenoiser(DenoiserKind kind, Device& device, const DenoisePipelines* pipelines,
+/// Null for None. `pipelines` outlives the result.
+std::unique_ptr<Denoiser> makeDenoiser(DenoiserKind kind, Device& device, const DenoisePipelines& pipelines,
                                        VkExtent2D extent);
 
 } // namespace q3rt

@@ -61,13 +61,13 @@ void Asvgf::addAfterDirect(FrameGraph& graph, ViewResources& resources) {
     Svgf::addAfterDirect(graph, resources);
 }
 
-std::unique_ptr<Denoiser> makeDenoiser(DenoiserKind kind, Device& device, const DenoisePipelines* pipelines,
+std::unique_ptr<Denoiser> makeDenoiser(DenoiserKind kind, Device& device, const DenoisePipelines& pipelines,
                                        VkExtent2D extent) {
     switch (kind) {
     case DenoiserKind::Asvgf:
-        return std::make_unique<Asvgf>(device, *pipelines, extent);
+        return std::make_unique<Asvgf>(device, pipelines, extent);
     case DenoiserKind::Svgf:
-        return std::make_unique<Svgf>(device, *pipelines, extent);
+        return std::make_unique<Svgf>(device, pipelines, extent);
     case DenoiserKind::None:
         break;
     }

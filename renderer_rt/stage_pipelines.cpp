@@ -52,6 +52,18 @@ bool onlySearches(TraceStage stage) {
     return stage == TraceStage::Look || stage == TraceStage::Direct || stage == TraceStage::Shadows;
 }
 
+/// What one stage wrote the next one reads.
+void orderStages(VkCommandBuffer commands) {
+    const VkMemoryBarrier2 order{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                 .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                 .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                 .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                 .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+    const VkDependencyInfo dependency{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &order};
+    vkCmdPipelineBarrier2KHR(commands, &dependency);
+}
+
 template <typename Stage>
 size_t indexOf(Stage stage) {
     return static_cast<size_t>(stage);
@@ -148,16 +160,9 @@ void StagePipelines::dispatch(VkCommandBuffer commands, PointStage stage, const 
 }
 
 void StagePipelines::warm(VkCommandBuffer commands, const StageInput& input) const {
-    const VkMemoryBarrier2 order{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                 .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                 .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                 .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                 .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
-    const VkDependencyInfo dependency{
-        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &order};
     const auto run = [&](auto stage, VkExtent2D extent) {
         dispatch(commands, stage, {input.textures, input.structures, input.push, extent, input.stagedCover});
-        vkCmdPipelineBarrier2KHR(commands, &dependency);
+        orderStages(commands);
     };
     run(TraceStage::Look, input.extent);
     run(PointStage::Shade, input.extent);
@@ -167,6 +172,15 @@ void StagePipelines::warm(VkCommandBuffer commands, const StageInput& input) con
     run(TraceStage::Shadows, wholeTiles(input.extent));
     run(TraceStage::Direct, input.extent);
     if (m_hasPlain) run(TraceStage::Plain, input.extent);
+}
+
+void StagePipelines::warmOtherCover(VkCommandBuffer commands, StageInput input) const {
+    input.stagedCover = !input.stagedCover;
+    for (const TraceStage stage : {TraceStage::Look, TraceStage::Primary, TraceStage::Direct, TraceStage::Shadows}) {
+        if (&computeStage(stage, true) == &computeStage(stage, false)) continue;
+        dispatch(commands, stage, input);
+        orderStages(commands);
+    }
 }
 
 const Access& StagePipelines::bufferRead() const {

@@ -39,6 +39,8 @@ class StagePipelines {
     void dispatch(VkCommandBuffer commands, PointStage stage, const StageInput& input) const;
     /// Runs each stage once as such an input takes it, so that the driver compiles them now.
     void warm(VkCommandBuffer commands, const StageInput& input) const;
+    /// The same for what scenes whose cover is of the other kind take instead.
+    void warmOtherCover(VkCommandBuffer commands, StageInput input) const;
     const DescriptorLayout& structureLayout() const { return m_structureLayout; }
     Backend backend() const { return m_backend; }
     /// How the tracing stages touch buffers and structures.

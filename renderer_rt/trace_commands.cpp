@@ -143,8 +143,7 @@ RunTime TraceRenderer::runStill(VkExtent2D extent, bool filters) {
         m_pipelines->warm(commands, input);
         if (!filters) return;
         m_denoisePipelines->warm(commands);
-        input.stagedCover = !view.stagedCover;
-        m_pipelines->warm(commands, input);
+        m_pipelines->warmOtherCover(commands, input);
         context().target().transition(commands, storageWritten);
         m_pictures->warm(commands,
                          arena.make(m_pictures->targetLayout(), {bindStorageImage(0, context().target().view())}));

@@ -208,7 +208,7 @@ void TraceRenderer::prepareHistory(const FrameCommands& frame, const SceneView& 
     const bool antialiased = m_settings.rt_taa != 0 && filtered;
     const auto kind =
         filtered && m_settings.rt_illumination ? static_cast<DenoiserKind>(m_settings.rt_denoiser) : DenoiserKind::None;
-    buffers.turnHistory(context().device(), m_denoisePipelines.get(), kind, antialiased || scaled);
+    buffers.turnHistory(context().device(), *m_denoisePipelines, kind, antialiased || scaled);
     if (!buffers.guides) return;
     advanceMotion(frame, scene, buffers, out);
     GrowingBuffer& stream = m_scene->stream();

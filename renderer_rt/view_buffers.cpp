@@ -53,7 +53,7 @@ void SumBuffers::count(std::vector<uint32_t> key) {
     viewKey = std::move(key);
 }
 
-void ViewBuffers::turnHistory(Device& device, const DenoisePipelines* pipelines, DenoiserKind denoised,
+void ViewBuffers::turnHistory(Device& device, const DenoisePipelines& pipelines, DenoiserKind denoised,
                               bool antialiased) {
     const bool otherDenoiser = denoised != denoiserKind(), otherTaa = antialiased != (taa != nullptr);
     if (otherDenoiser || otherTaa) motion = ViewMotion();

@@ -64,8 +64,7 @@ struct ViewBuffers {
     uint32_t lastPicture = 0;             ///< number of the last drawn frame that used it
     ViewBuffers(Device& device, const VkRect2D& viewArea, VkExtent2D tracedExtent);
     /// Makes or drops what is kept from frame to frame; what the last frame left becomes its history.
-    /// `pipelines` may be null if nothing is denoised.
-    void turnHistory(Device& device, const DenoisePipelines* pipelines, DenoiserKind denoised, bool antialiased);
+    void turnHistory(Device& device, const DenoisePipelines& pipelines, DenoiserKind denoised, bool antialiased);
     DenoiserKind denoiserKind() const { return denoiser ? denoiser->kind() : DenoiserKind::None; }
     /// Makes or drops what accumulation and automatic exposure need.
     void turnPicture(Device& device, bool accumulated, bool autoExposed);

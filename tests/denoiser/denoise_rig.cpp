@@ -91,7 +91,7 @@ void DenoiseRig::run(const std::function<void(FrameGraph& graph)>& addPasses) {
 
 RigFrame DenoiseRig::draw(const vec3& eye, const LightFunction& light) {
     ++m_number;
-    m_buffers.turnHistory(m_device, &m_pipelines, m_kind, false);
+    m_buffers.turnHistory(m_device, m_pipelines, m_kind, false);
     const RtFrame camera = describeCamera(eye);
     EntityPlace world;
     world.moves = false;
@@ -133,7 +133,7 @@ RigFrame DenoiseRig::draw(const vec3& eye, const LightFunction& light) {
 }
 
 uint64_t DenoiseRig::countNonFinite(const std::vector<RtGuide>& guides) {
-    m_buffers.turnHistory(m_device, &m_pipelines, m_kind, false);
+    m_buffers.turnHistory(m_device, m_pipelines, m_kind, false);
     m_uploader.upload(m_buffers.guides->guides, std::span<const RtGuide>(guides));
     m_uploader.flush();
     const PicturePipelines pictures(m_device);
