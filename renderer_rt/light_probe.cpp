@@ -1,6 +1,7 @@
 #include "renderer_rt/light_probe.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "renderer_rt/surface_class.hpp"
@@ -17,6 +18,7 @@ using glm::vec4;
 using uint = uint32_t;
 
 #include "lib/light.glsl"
+#include "lib/random.glsl"
 
 ProbeWays waysAround(const vec3& axis) {
     const Frame frame = frameAround(axis);
@@ -51,6 +53,22 @@ void lookAtPoint(const RtLight& light, const vec3& point, vec3& way, vec3& flux)
     if (light.spot > 0.0f) flux *= spotShare(light.axis, light.spot, -way);
 }
 
+/// Of an alpha-tested surface, the share that is no hole: the mean alpha of its texture, whose texels are on the
+/// device.
+float coverShare(const MaterialLibrary& materials, MaterialId id) {
+    for (const Stage& stage : materials.get(id).stages)
+        if (stage.alphaTest != AlphaTest::None && !stage.unit[0].frames.empty()) {
+            const float alpha = materials.textures().get(stage.unit[0].frames[0]).averageColor.a;
+            return stage.alphaTest == AlphaTest::Less128 ? 1.0f - alpha : alpha;
+        }
+    return 1.0f;
+}
+
+/// Of [0, 1), another one at every place, always the same at one.
+float numberOf(const vec2& place) {
+    return unitFloat(hashPcg4d(uvec4(std::bit_cast<uint>(place.x), std::bit_cast<uint>(place.y), 0, 0)).x);
+}
+
 } // namespace
 
 LightProbe::LightProbe(const World& world, const MaterialLibrary& materials, const LightTables& tables)
@@ -58,16 +76,21 @@ LightProbe::LightProbe(const World& world, const MaterialLibrary& materials, con
     , m_tables(tables)
     , m_farQu(2.0f * glm::length(world.bounds.maxs - world.bounds.mins)) {
     std::vector<vec3> positions;
+    std::vector<uint8_t> opaque;
     const BspModel& model = world.bsp.models.front();
     for (int s = 0; s < model.surfaceCount; ++s) {
         const WorldSurface& surface = world.surfaces[static_cast<size_t>(model.firstSurface + s)];
         const auto surfaceClass = classifySurface(materials.get(surface.material));
-        if (!surface.drawn || !surfaceClass || !isOpaqueClass(*surfaceClass)) continue;
+        if (!surface.drawn || !surfaceClass || *surfaceClass == SurfaceClass::Layer) continue;
         for (uint32_t i = 0; i < surface.indexCount; ++i)
             positions.push_back(world.vertices[world.indices[surface.firstIndex + i]].position);
         m_isSky.resize(positions.size() / 3, *surfaceClass == SurfaceClass::Sky);
+        const float cover = isOpaqueClass(*surfaceClass) ? 1.0f : coverShare(materials, surface.material);
+        opaque.resize(positions.size() / 3, cover >= 1.0f);
+        m_cover.resize(positions.size() / 3, cover);
     }
-    m_tracer = std::make_unique<CpuTracer>(positions);
+    m_tracer = std::make_unique<CpuTracer>(positions, opaque);
+    m_tracer->accept = [this](uint32_t triangle, const vec2& at) { return numberOf(at) < m_cover[triangle]; };
 }
 
 LightProbe::Seen LightProbe::look(const vec3& point, const vec3& axis, uint32_t rayCount, std::mt19937& random) const {

@@ -34,7 +34,9 @@ class LightProbe {
     const World& m_world;
     const LightTables& m_tables;
     std::unique_ptr<CpuTracer> m_tracer;
-    std::vector<char> m_isSky; ///< by triangle of the tracer
+    // By triangle of the tracer.
+    std::vector<char> m_isSky;
+    std::vector<float> m_cover; ///< share of it that stops light
     float m_farQu;
 };
 

@@ -12,7 +12,7 @@ using uint = uint32_t;
 #include "lib/grid_cell.glsl"
 
 uvec4 pack(const GridCell& cell, const GridShare& light) {
-    return packGridCell({light.ambient, light.directed, cell.direction, cell.sunSeen, cell.valid != 0});
+    return packGridCell({light.ambient, light.directed, cell.direction, cell.sunSeen, light.valid});
 }
 
 } // namespace

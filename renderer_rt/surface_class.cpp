@@ -44,7 +44,18 @@ uint32_t reflectionFlag(const Material& material) {
     return fakes && (contents & kContentsTranslucent) != 0 ? kSurfaceGlass : 0;
 }
 
+bool isModels(const Material& material) {
+    return std::any_of(material.stages.begin(), material.stages.end(),
+                       [](const Stage& s) { return s.bakedLight == BakedLight::LightGrid; });
+}
+
 } // namespace
+
+bool isThin(const Material& material) {
+    const bool letsLightPass =
+        (material.contentFlags & surfaceParm::kContentsTranslucent) != 0 || material.light.alphaShadow;
+    return material.cull == CullMode::None && !material.polygonOffset && (letsLightPass || isModels(material));
+}
 
 uint32_t surfaceFlags(const Material& material, SurfaceClass surfaceClass) {
     uint32_t flags = 0;
@@ -55,10 +66,8 @@ uint32_t surfaceFlags(const Material& material, SurfaceClass surfaceClass) {
     if (material.cull == CullMode::Back) flags |= kSurfaceCullFront;
     if (surfaceClass == SurfaceClass::Sky) flags |= kSurfaceSky;
     if (surfaceClass == SurfaceClass::Layer && !material.polygonOffset) flags |= reflectionFlag(material);
-    if (material.cull == CullMode::None && !material.polygonOffset) flags |= kSurfaceThin;
-    if (std::any_of(material.stages.begin(), material.stages.end(),
-                    [](const Stage& s) { return s.bakedLight == BakedLight::LightGrid; }))
-        flags |= kSurfaceModel;
+    if (isThin(material)) flags |= kSurfaceThin;
+    if (isModels(material)) flags |= kSurfaceModel;
     // The engine's fog pass: opaque materials, and the faces of fog volumes themselves.
     if (material.sort <= kSortOpaque || material.isFog) flags |= kSurfaceFogged;
     return flags;

@@ -22,6 +22,10 @@ inline constexpr size_t kSurfaceClassCount = 5;
 /// nullopt: it shows nothing (no stages, no fog).
 std::optional<SurfaceClass> classifySurface(const Material& material);
 
+/// Is light that falls on either side to be seen on both? Of what shows both its sides and does not stop light when a
+/// map is baked; other such surfaces are baked as walls, with their front's light.
+bool isThin(const Material& material);
+
 /// kSurface* bits of a material for the surface table.
 uint32_t surfaceFlags(const Material& material, SurfaceClass surfaceClass);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gpu/device.hpp"
+#include "renderer_rt/grid_fit.hpp"
 #include "renderer_rt/grid_light.hpp"
 #include "renderer_rt/node_starts.hpp"
 #include "renderer_rt/packed_grid.hpp"
@@ -75,10 +76,10 @@ std::vector<GridCell> makeGrid(const World& world, const ModelLightScale& scale)
                 const vec3 point = grid.origin + grid.cellSize * vec3(x, y, z);
                 const GridLight light = grid.sample(point);
                 GridCell cell{};
-                cell.surfaces = {light.ambient, light.directed};
-                cell.models = {scale.ambient * light.ambient, scale.directed * light.directed};
-                cell.direction = light.direction;
-                cell.valid = light.ambient != vec3(0.0f) ? 1 : 0;
+                const bool valid = light.ambient != vec3(0.0f);
+                cell.surfaces = {light.ambient, light.directed, valid};
+                cell.models = {scale.ambient * light.ambient, scale.directed * light.directed, valid};
+                cell.direction = light.direction == vec3(0.0f) ? vec3(0, 0, 1) : light.direction;
                 cells.push_back(cell);
             }
     return cells;
@@ -190,8 +191,11 @@ WorldLights::WorldLights(Device& device, Uploader& uploader, const World& world,
     LightTables tables = buildLightTables(world, materials, lights, scale, m_animation);
     if (!tables.grid.empty()) {
         const LightProbe probe(world, materials, tables);
-        raiseGrid(tables.grid, explainGrid(probe, world.grid, tables.grid), lights.ambient, lights.floor);
-        capGrid(world.grid, tables.grid, findLacks(world, materials, probe));
+        const std::vector<ProbeWays> explained = explainGrid(probe, world.grid, tables.grid);
+        const std::vector<LuxelLack> lacks = findLacks(world, materials, probe, lights.ambient, lights.floor);
+        openCells(world, tables.grid, lacks);
+        fitGrid(world.grid, tables.grid, lacks);
+        raiseGrid(tables.grid, explained, lights.ambient, lights.floor);
     }
     m_others = tables.others;
     for (size_t i = 0; i < lights.triangles.size(); ++i) {

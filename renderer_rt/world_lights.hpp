@@ -16,6 +16,7 @@ namespace q3rt {
 /// Irradiance = ambient + directed x max(0, cosine of normal and direction), luxel units.
 struct GridShare {
     vec3 ambient, directed;
+    bool valid; ///< false: no light is known here, such as inside a wall
 };
 
 /// What the traced lights leave of a point of the map's light grid.
@@ -23,8 +24,8 @@ struct GridCell {
     GridShare surfaces; ///< of what has a lightmap, or baked colours
     GridShare models;   ///< of what the engine lights by the grid
     vec3 direction;     ///< unit, toward the light
-    uint32_t valid;     ///< 0: inside a wall
     float sunSeen;      ///< share of the suns that shine here, [0, 1]: a guide for choosing lights
+    bool isFitted;      ///< what surfaces take is what their luxels lack (grid_fit.hpp)
 };
 
 /// What is uploaded, as plain tables: pure, testable.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "relight/sampling.hpp"
+#include "scene/luxels.hpp"
 
 namespace q3rt {
 namespace {
@@ -84,10 +85,7 @@ LightScene::LightScene(const World& w, const MaterialLibrary& m, const LuxelMapS
 
 bool LightScene::isFront(const OccluderHit& hit, const vec3& direction) const {
     if (materials.get(world.surfaces[hit.surface].material).cull == CullMode::None) return true;
-    vec3 normal(0);
-    for (uint32_t i = 0; i < 3; ++i)
-        normal += world.vertices[world.indices[hit.firstIndex + i]].normal;
-    return glm::dot(normal, direction) < 0;
+    return glm::dot(normalAt(world, hit.firstIndex, vec3(1.0f / 3)), direction) < 0;
 }
 
 LightReceiver LightScene::receiverOf(const PlacedLuxel& luxel) const {

@@ -5,6 +5,7 @@
 #include <queue>
 
 #include "relight/sampling.hpp"
+#include "scene/luxels.hpp"
 
 namespace q3rt {
 namespace {
@@ -56,10 +57,8 @@ void placeTriangle(const World& world, int page, uint32_t firstIndex, std::vecto
             const auto w1 = static_cast<float>(b1), w2 = static_cast<float>(b2), w0 = 1 - w1 - w2;
             PlacedLuxel luxel;
             luxel.position = w0 * v[0]->position + w1 * v[1]->position + w2 * v[2]->position;
-            luxel.normal = w0 * v[0]->normal + w1 * v[1]->normal + w2 * v[2]->normal;
-            const float length = glm::length(luxel.normal);
-            if (!(length > 0)) continue;
-            luxel.normal /= length;
+            luxel.normal = normalAt(world, firstIndex, {w0, w1, w2});
+            if (luxel.normal == vec3(0)) continue;
             luxel.texel = static_cast<uint32_t>(texel);
             luxel.areaQu2 = texelArea;
             if (world.clusterOf(luxel.position + kSampleOffsetQu * luxel.normal) < 0) continue;

@@ -103,6 +103,15 @@ LuxelReport summarise(const std::vector<Luxel>& luxels, const std::vector<Direct
 
 } // namespace
 
+vec3 normalAt(const World& world, uint32_t firstIndex, const vec3& weight) {
+    const auto corner = [&](uint32_t k) -> const Vertex& { return world.vertices[world.indices[firstIndex + k]]; };
+    vec3 normal = weight.x * corner(0).normal + weight.y * corner(1).normal + weight.z * corner(2).normal;
+    if (normal == vec3(0))
+        normal = glm::cross(corner(2).position - corner(0).position, corner(1).position - corner(0).position);
+    const float length = glm::length(normal);
+    return length > 0 ? normal / length : vec3(0);
+}
+
 std::vector<Luxel> sampleLuxels(const World& world, const MaterialLibrary& materials, size_t count, uint32_t seed) {
     std::vector<Luxel> luxels;
     const std::vector<SampledTriangle> triangles = luxelTriangles(world, materials);
@@ -121,14 +130,12 @@ std::vector<Luxel> sampleLuxels(const World& world, const MaterialLibrary& mater
         for (uint32_t corner = 0; corner < 3; ++corner) {
             const Vertex& vertex = world.vertices[world.indices[it->firstIndex + corner]];
             luxel.position += weight[corner] * vertex.position;
-            luxel.normal += weight[corner] * vertex.normal;
             st += weight[corner] * vertex.lightmapSt;
         }
-        const float length = glm::length(luxel.normal);
+        luxel.normal = normalAt(world, it->firstIndex, {weight[0], weight[1], weight[2]});
         luxel.surface = it->surface;
         luxel.baked = luxelAt(world.bsp, world.bsp.surfaces[static_cast<size_t>(it->surface)].lightmap, st);
-        if (length <= 0 || largest(luxel.baked) >= 255) continue;
-        luxel.normal /= length;
+        if (luxel.normal == vec3(0) || largest(luxel.baked) >= 255) continue;
         luxels.push_back(luxel);
     }
     return luxels;

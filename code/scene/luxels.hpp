@@ -15,6 +15,11 @@ struct Luxel {
     int surface = -1;
 };
 
+/// Unit normal at a point of the triangle whose corners begin at World::indices[firstIndex], `weight` of each: that of
+/// its vertices, or, where a compiler left them without, of the side from which the corners go clockwise. 0: it has
+/// none.
+vec3 normalAt(const World& world, uint32_t firstIndex, const vec3& weight);
+
 /// Points uniform by area over lightmapped faces of the world; sky, hidden and emissive faces and saturated luxels left
 /// out. The same seed gives the same points.
 std::vector<Luxel> sampleLuxels(const World& world, const MaterialLibrary& materials, size_t count, uint32_t seed);

@@ -1,6 +1,7 @@
 // The ambient term: the map's light grid at a point.
 #ifndef Q3RT_RT_GRID_GLSL
 #define Q3RT_RT_GRID_GLSL
+#include "lib/grid_mix.glsl"
 #include "rt/rows.glsl"
 #include "rt/scene.glsl"
 
@@ -9,29 +10,28 @@ struct GridSample {
     float sunSeen;   // [0, 1]
 };
 
-// Trilinear over the cells that are not inside walls; no light, and all of the sky, where there are none. `lit`: kLit*;
-// on what is thin light along the normal counts whichever way it goes.
+// Of the cells before the surface that are not inside walls; no light, and all of the sky, where there are none.
+// `lit`: kLit*; on what is thin light along the normal counts whichever way it goes.
 GridSample sampleGrid(vec3 point, vec3 normal, uint lit)
 {
     GridSample result = GridSample(vec3(0.0), 1.0);
     if ((rtFrame.flags & kFrameGrid) == 0u)
         return result;
     float sunSeen = 0.0;
-    vec3 v = (point - rtFrame.gridOrigin) / rtFrame.gridCellSize;
-    ivec3 cell = clamp(ivec3(floor(v)), ivec3(0), rtFrame.gridCounts - 1);
-    vec3 f = clamp(v - vec3(cell), vec3(0.0), vec3(1.0));
+    GridShape grid;
+    grid.origin = rtFrame.gridOrigin;
+    grid.cellSize = rtFrame.gridCellSize;
+    grid.counts = rtFrame.gridCounts;
+    GridPlace place = placeInGrid(grid, point);
+    vec3 front = (lit & (kLitThin | kLitModel)) != 0u ? vec3(0.0) : normal;
     uint taker = (lit & kLitModel) != 0u ? 1u : 0u;
     vec3 ambient = vec3(0.0), directed = vec3(0.0), direction = vec3(0.0);
     float total = 0.0;
     // Unrolled and without a branch: the eight reads are under way together.
     UNROLL for (int corner = 0; corner < 8; ++corner) {
-        ivec3 step = ivec3(corner & 1, (corner >> 1) & 1, corner >> 2);
-        ivec3 at = min(cell + step, rtFrame.gridCounts - 1);
-        bool inside = at == cell + step;
-        vec3 axisWeights = mix(1.0 - f, f, vec3(step));
-        int cellIndex = at.x + rtFrame.gridCounts.x * (at.y + rtFrame.gridCounts.y * at.z);
-        GridCellLight sampled = loadGridCell(rtFrame.grid, uint(cellIndex), taker);
-        float weight = sampled.valid && inside ? axisWeights.x * axisWeights.y * axisWeights.z : 0.0;
+        GridCorner at = findGridCorner(grid, place, front, corner);
+        GridCellLight sampled = loadGridCell(rtFrame.grid, at.cell, taker);
+        float weight = sampled.valid ? at.weight : 0.0;
         ambient += sampled.ambient * weight;
         directed += sampled.directed * weight;
         direction += sampled.direction * weight;

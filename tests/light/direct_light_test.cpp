@@ -65,6 +65,23 @@ TEST(SpotShare, FadesInsideItsCircle) {
     EXPECT_EQ(spotShare(vec3(0, 0, 200), axis, 0.5f), 0);
 }
 
+TEST(Luxels, FacesWithoutNormalsHaveTheirSides) {
+    World world;
+    world.vertices.resize(3);
+    world.vertices[1].position = vec3(0, 5, 0); // clockwise as seen from above
+    world.vertices[2].position = vec3(5, 0, 0);
+    world.indices = {0, 1, 2};
+    const vec3 weight(0.25f, 0.5f, 0.25f);
+    EXPECT_EQ(normalAt(world, 0, weight), vec3(0, 0, 1));
+    for (Vertex& vertex : world.vertices)
+        vertex.normal = vec3(0, 1, 0);
+    EXPECT_EQ(normalAt(world, 0, weight), vec3(0, 1, 0));
+    world.vertices[2] = world.vertices[1];
+    for (Vertex& vertex : world.vertices)
+        vertex.normal = vec3(0);
+    EXPECT_EQ(normalAt(world, 0, weight), vec3(0)) << "no area";
+}
+
 /// Maps whose bake is known to be lit by what their scripts still say: the light model's units are right there.
 TEST(Luxels, ExtractedLightsAgreeWithTheBake) {
     Q3RT_OPEN_GAME_DATA_OR_SKIP(files);

@@ -1,9 +1,11 @@
 // lights/MAP.ent in the renderer: in place of what scripts say, at once when it is reloaded, and left out when it is
 // damaged.
 
+#include <cstring>
 #include <gtest/gtest.h>
 
 #include "base/log.hpp"
+#include "renderer_rt/grid_fit.hpp"
 #include "renderer_rt/grid_light.hpp"
 #include "renderer_rt/lost_light_file.hpp"
 #include "tests/truth/test_game.hpp"
@@ -103,6 +105,48 @@ TEST_F(LostLightTest, WhatNoLightExplainsComesFromTheGridOnce) {
     EXPECT_NEAR(radiance(kMoreFrames), radianceOfEmitter(), 0.01 * radianceOfEmitter()) << "the grid adds nothing";
 }
 
+/// The emitter is dark, whatever the lightmap has of it.
+std::string darkWith(const char* key, int value) {
+    return "{ \"classname\" \"worldspawn\" \"q3map_surfacelight textures/baseq3test/light_square\" \"0 1 1 1\" \"" +
+           std::string(key) + "\" \"" + std::to_string(value) + "\" }\n";
+}
+double radianceOf(double irradiance) { return kTestWallAlbedo * irradiance / 63.75; }
+
+TEST_F(LostLightTest, LightThatIsEverywhereArrives) {
+    const double baked = squareLightRoom::computeIrradiance(kSeen, kUp);
+    m_game.addText(kFile, darkWith("ambient", 2 * int(baked)));
+    start("1");
+    m_harness->set("rt_ambient", "1");
+    EXPECT_NEAR(radiance(), radianceOf(2 * int(baked)), 0.01 * radianceOf(baked)) << "more than the lightmap has";
+    m_game.addText(kFile, darkWith("ambient", int(baked) / 2));
+    ASSERT_TRUE(m_harness->engine().runCommand({"rt_reloadLights"}));
+    EXPECT_NEAR(radiance(), radianceOf(baked), 0.03 * radianceOf(baked)) << "luxels lack the rest";
+}
+
+TEST_F(LostLightTest, TheFloorArrives) {
+    const double baked = squareLightRoom::computeIrradiance(kSeen, kUp);
+    m_game.addText(kFile, darkWith("_minlight", 3 * int(baked)));
+    start("1");
+    m_harness->set("rt_ambient", "1");
+    EXPECT_NEAR(radiance(), radianceOf(3 * int(baked)), 0.03 * radianceOf(baked));
+    m_game.addText(kFile, darkWith("_minlight", 1));
+    ASSERT_TRUE(m_harness->engine().runCommand({"rt_reloadLights"}));
+    EXPECT_NEAR(radiance(), radianceOf(baked), 0.03 * radianceOf(baked)) << "it is light enough";
+}
+
+TEST_F(LostLightTest, WhatTheGridLacksLuxelsTell) {
+    std::vector<std::byte> map = *m_game.read(kMap);
+    constexpr size_t kGridLump = 8 + 8 * 15; // of the header: offset and length
+    int32_t grid[2];
+    std::memcpy(grid, &map[kGridLump], sizeof grid);
+    std::fill_n(map.begin() + grid[0], grid[1], std::byte{0});
+    m_game.add(kMap, map);
+    m_game.addText(kFile, lightText(0));
+    start("1");
+    m_harness->set("rt_ambient", "1");
+    EXPECT_NEAR(radiance(), radianceOfEmitter(), 0.03 * radianceOfEmitter());
+}
+
 TEST_F(LostLightTest, DamagedItIsLeftOut) {
     m_game.addText(kFile, lightText(100) + "{ \"classname\" \"light\" }");
     start("1");
@@ -133,50 +177,6 @@ TEST(LostLightFile, SaysWhatIsWrong) {
     setLogSink({});
 }
 
-/// Two cells beside each other and one in a wall, 64 qu apart.
-struct SmallGrid {
-    LightGrid shape;
-    std::vector<GridCell> cells{3};
-    SmallGrid() {
-        shape.origin = vec3(0);
-        shape.cellSize = vec3(64);
-        shape.counts = {3, 1, 1};
-        for (size_t i = 0; i < 2; ++i) {
-            cells[i].valid = 1;
-            cells[i].direction = vec3(0, 0, 1);
-            cells[i].surfaces = {vec3(10, 2, 0), vec3(20, 4, 0)};
-        }
-    }
-    float shareLeft(size_t i) const { return cells[i].surfaces.directed.y / 4; }
-};
-
-TEST(CapGrid, NoMoreThanTheLuxelsLack) {
-    const vec3 up(0, 0, 1), down(0, 0, -1);
-    SmallGrid grid; // gives 36 upwards, 12 downwards, sum of the channels
-    capGrid(grid.shape, grid.cells,
-            {{vec3(0), up, 10, true}, {vec3(0), down, 2, true}, {vec3(64, 0, 0), up, 100, true}});
-    EXPECT_NEAR(grid.shareLeft(0), 12.0 / 48, 1e-5);
-    EXPECT_NEAR(grid.cells[0].surfaces.ambient.x, 10 * 12.0 / 48, 1e-5) << "hue stays";
-    EXPECT_EQ(grid.shareLeft(1), 1) << "only darkens";
-    SmallGrid between;
-    capGrid(between.shape, between.cells, {{vec3(48, 0, 0), up, 9, true}, {vec3(0), up, -5, true}});
-    EXPECT_NEAR(between.shareLeft(1), 0.25, 1e-5) << "asked with the shaders' weights";
-    EXPECT_EQ(between.shareLeft(0), 0) << "(9 / 4 - 5) of (36 / 4 + 36): too much already";
-}
-
-TEST(CapGrid, WhereNoLuxelTellsTheMeanDoes) {
-    SmallGrid grid;
-    capGrid(grid.shape, grid.cells, {{vec3(0), vec3(0, 0, 1), 9, true}});
-    EXPECT_NEAR(grid.shareLeft(1), 0.25, 1e-5);
-    SmallGrid unasked;
-    capGrid(unasked.shape, unasked.cells, {});
-    EXPECT_EQ(unasked.shareLeft(0), 1) << "of a map without a luxel nothing is known";
-    SmallGrid dark; // nothing is there, and that is too much
-    dark.cells.assign(3, GridCell{.valid = 1});
-    capGrid(dark.shape, dark.cells, {{vec3(0), vec3(0, 0, 1), -9, true}});
-    EXPECT_EQ(dark.cells[0].surfaces.ambient, vec3(0));
-}
-
 TEST(ModelLight, IsTheGridLessWhatTheLightsGive) {
     TestGame game;
     TextureLibrary textures(game, {});
@@ -191,11 +191,11 @@ TEST(ModelLight, IsTheGridLessWhatTheLightsGive) {
         const std::vector<ProbeWays> given = explainGrid(probe, world->grid, tables.grid);
         std::vector<LuxelLack> nothing;
         for (const Vertex& vertex : world->vertices)
-            nothing.push_back({vertex.position, vertex.normal, -1, true});
-        capGrid(world->grid, tables.grid, nothing);
+            nothing.push_back({.position = vertex.position, .normal = vertex.normal, .light = vec3(-1)});
+        fitGrid(world->grid, tables.grid, nothing);
         int lit = 0;
         for (size_t i = 0; i < baked.size(); ++i) {
-            if (baked[i].valid == 0) continue;
+            if (!baked[i].models.valid) continue;
             const GridShare& left = tables.grid[i].models;
             const vec3 along = baked[i].models.ambient + baked[i].models.directed;
             for (int c = 0; c < 3; ++c)
@@ -212,7 +212,7 @@ TEST(ModelLight, IsTheGridLessWhatTheLightsGive) {
 
 TEST(RaiseGrid, GivesWhatLacks) {
     std::vector<GridCell> grid(3);
-    grid[0].valid = grid[1].valid = 1;
+    grid[0].surfaces.valid = grid[1].surfaces.valid = true;
     grid[0].surfaces.ambient = vec3(4);
     grid[0].surfaces.directed = vec3(6);
     grid[1].surfaces.ambient = vec3(25);
@@ -228,6 +228,10 @@ TEST(RaiseGrid, GivesWhatLacks) {
     raised = grid;
     raiseGrid(raised, {half, half, half}, vec3(10, 3, 0), vec3(0));
     EXPECT_EQ(raised[0].surfaces.ambient, vec3(10, 4, 4)) << "light that is everywhere counts once";
+    raised = grid;
+    raised[0].isFitted = true;
+    raiseGrid(raised, {half, half, half}, vec3(10, 3, 0), vec3(200));
+    EXPECT_EQ(raised[0].surfaces.ambient, vec3(14, 7, 4)) << "its luxels did not count it, but counted the floor";
 }
 
 } // namespace

@@ -26,11 +26,10 @@ TEST(PackedGrid, KeepsCells) {
     std::vector<GridCell> grid;
     for (int i = 0; i < 5000; ++i) {
         GridCell cell{};
-        cell.surfaces = {vec3(light(random), 0, light(random)), vec3(light(random), 1e-3f, 70000)};
-        cell.models = {vec3(1, light(random), 2), vec3(0)};
+        cell.surfaces = {vec3(light(random), 0, light(random)), vec3(light(random), 1e-3f, 70000), i % 2 == 0};
+        cell.models = {vec3(1, light(random), 2), vec3(0), i % 3 == 0};
         cell.direction = glm::normalize(vec3(unit(random), unit(random), unit(random) + 1e-3f));
         cell.sunSeen = share(random);
-        cell.valid = i % 2;
         grid.push_back(cell);
     }
     const std::vector<glm::uvec4> rows = packGrid(grid);
@@ -43,14 +42,14 @@ TEST(PackedGrid, KeepsCells) {
         expectNear(packed.directed, given.directed);
         EXPECT_LT(glm::length(packed.direction - cell.direction), 1e-3f);
         EXPECT_NEAR(packed.sunSeen, cell.sunSeen, 1.0f / 128);
-        EXPECT_EQ(packed.valid, cell.valid != 0);
+        EXPECT_EQ(packed.valid, given.valid);
     }
 }
 
 TEST(PackedGrid, LightFromNowhereIsNone) {
     GridCell cell{};
     cell.surfaces.directed = vec3(9);
-    cell.valid = 1;
+    cell.surfaces.valid = true;
     EXPECT_EQ(shader::unpackGridCell(packGrid({cell})[0]).directed, vec3(0));
 }
 

@@ -60,15 +60,22 @@ TEST(SurfaceClass, FollowsSidesSkyFogAndOffset) {
     EXPECT_TRUE(surfaceFlags(fog, SurfaceClass::Layer) & kSurfaceFogged);
 }
 
-TEST(SurfaceClass, WhatShowsBothSidesIsThin) {
+TEST(SurfaceClass, WhatShowsBothSidesAndLetsLightPassIsThin) {
     Material material = makeMaterial({testedStage()});
+    material.contentFlags = surfaceParm::kContentsTranslucent;
     EXPECT_FALSE(surfaceFlags(material, SurfaceClass::Tested) & (kSurfaceThin | kSurfaceModel));
     material.cull = CullMode::None;
+    EXPECT_TRUE(surfaceFlags(material, SurfaceClass::Tested) & kSurfaceThin);
+    material.contentFlags = 0;
+    EXPECT_FALSE(surfaceFlags(material, SurfaceClass::Tested) & kSurfaceThin) << "baked as a wall";
+    material.light.alphaShadow = true;
     EXPECT_TRUE(surfaceFlags(material, SurfaceClass::Tested) & kSurfaceThin);
     material.polygonOffset = true;
     EXPECT_FALSE(surfaceFlags(material, SurfaceClass::Layer) & kSurfaceThin) << "a mark has a wall behind it";
     material.stages[0].bakedLight = BakedLight::LightGrid;
     EXPECT_TRUE(surfaceFlags(material, SurfaceClass::Layer) & kSurfaceModel);
+    material.polygonOffset = material.light.alphaShadow = false;
+    EXPECT_TRUE(surfaceFlags(material, SurfaceClass::Tested) & kSurfaceThin) << "no compiler saw it";
 }
 
 TEST(SurfaceClass, MasksSayWhoSees) {

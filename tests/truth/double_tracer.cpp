@@ -396,7 +396,7 @@ dvec3 DoubleTracer::pointLight(const DoubleHit& hit) const {
 
 dvec3 DoubleTracer::irradiance(const DoubleHit& hit, std::mt19937& random) const {
     dvec3 sum = sideIrradiance(hit, random);
-    if (m_materials.drawn(m_world.surfaces[hit.surface].material).cull != CullMode::None) return sum;
+    if (!isThin(m_materials.drawn(m_world.surfaces[hit.surface].material))) return sum;
     DoubleHit behind = hit;
     behind.normal = -hit.normal;
     behind.geometricNormal = -hit.geometricNormal;

@@ -218,7 +218,7 @@ dvec3 PointMethods::runKept(size_t kept) {
 dvec3 PointMethods::enumerateChoices(uint cullLights, uint candidates, float sunSeen) {
     prepare(cullLights, 1);
     GridCell cell{};
-    cell.valid = 1;
+    cell.surfaces.valid = cell.models.valid = true;
     cell.sunSeen = sunSeen;
     m_inputs.frame.candidatesPerChoice = candidates;
     m_inputs.frame.flags |= kFrameGrid;

@@ -1,0 +1,226 @@
+#include "renderer_rt/grid_fit.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "base/parallel.hpp"
+#include "renderer_rt/grid_light.hpp"
+#include "renderer_rt/surface_class.hpp"
+#include "scene/luxels.hpp"
+
+namespace q3rt {
+
+namespace {
+
+using namespace glm;
+using glm::vec2;
+using glm::vec3;
+using uint = uint32_t;
+
+#include "lib/grid_mix.glsl"
+
+constexpr uint32_t kLuxelRays = 16;
+/// Luxels looked at for each square of the grid.
+constexpr double kLuxelsPerCell = 8;
+/// How far off their faces map compilers put their samples, qu.
+constexpr float kLuxelOffsetQu = 1;
+/// How many luxels at a cell's own place outweigh what it begins with. Neighbours that share their luxels can't be told
+/// apart: this keeps one from taking the light of the other.
+constexpr float kFirstGuessLuxels = 2;
+/// Of all cells. A round leaves half of what is left to do where luxels face along the cells' direction and against it.
+constexpr int kRounds = 12;
+
+/// The cells that a point takes its light from, as the shaders weigh them (shaders/rt/grid.glsl): weights sum to 1.
+struct CellMix {
+    uint32_t count = 0;
+    uint32_t cell[8];
+    float weight[8];
+    bool isBehind = true; ///< all of them behind the surface, if there are any
+};
+
+template <typename IsUsed>
+CellMix mixAt(const LightGrid& shape, const LuxelLack& luxel, const IsUsed& isUsed) {
+    const GridShape grid{shape.origin, shape.cellSize, shape.counts};
+    const GridPlace place = placeInGrid(grid, luxel.position);
+    const vec3 front = luxel.isThin ? vec3(0) : luxel.normal;
+    CellMix mix;
+    float total = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const GridCorner at = findGridCorner(grid, place, front, corner);
+        if (at.weight == 0 || !isUsed(at.cell)) continue;
+        mix.cell[mix.count] = at.cell;
+        mix.weight[mix.count++] = at.weight;
+        total += at.weight;
+    }
+    for (uint32_t k = 0; k < mix.count; ++k)
+        mix.weight[k] /= total;
+    mix.isBehind = total <= kGridBehindShare;
+    return mix;
+}
+
+/// Of the light that comes along the cells' direction, what a luxel takes.
+float facingOf(const std::vector<GridCell>& grid, const CellMix& mix, const LuxelLack& luxel) {
+    vec3 direction(0);
+    for (uint32_t k = 0; k < mix.count; ++k)
+        direction += mix.weight[k] * grid[mix.cell[k]].direction;
+    const float length = glm::length(direction);
+    if (!(length > 0)) return 0;
+    const float facing = glm::dot(luxel.normal, direction) / length;
+    return luxel.isThin ? std::abs(facing) : std::max(0.0f, facing);
+}
+
+/// Least squares by Gauss and Seidel: one unknown after the other is set to its best value beside all others.
+class GridFit {
+  public:
+    GridFit(const LightGrid& shape, std::vector<GridCell>& grid, const std::vector<LuxelLack>& lacks)
+        : m_grid(grid)
+        , m_takers(grid.size())
+        , m_first(grid.size()) {
+        for (const LuxelLack& lack : lacks) {
+            const CellMix mix = mixAt(shape, lack, [&](uint32_t cell) { return grid[cell].surfaces.valid; });
+            if (mix.count == 0) continue;
+            for (uint32_t k = 0; k < mix.count; ++k)
+                m_takers[mix.cell[k]].push_back({static_cast<uint32_t>(m_luxels.size()), mix.weight[k]});
+            m_luxels.push_back({mix, facingOf(grid, mix, lack), lack.light});
+        }
+    }
+
+    void darkenUnasked() {
+        vec3 has(0), lacks(0);
+        for (const AskedLuxel& luxel : m_luxels) {
+            has += lightOf(luxel);
+            lacks += luxel.lack;
+        }
+        const float all = has.x + has.y + has.z, most = std::max(0.0f, lacks.x + lacks.y + lacks.z);
+        for (size_t i = 0; i < m_grid.size() && all > most; ++i) {
+            if (!m_takers[i].empty()) continue;
+            m_grid[i].surfaces.ambient *= most / all;
+            m_grid[i].surfaces.directed *= most / all;
+        }
+    }
+
+    void begin() {
+        for (size_t i = 0; i < m_grid.size(); ++i) {
+            if (m_takers[i].empty()) continue;
+            vec3 sum(0);
+            float weight = 0;
+            for (const Taker& taker : m_takers[i]) {
+                sum += taker.weight * m_luxels[taker.luxel].lack;
+                weight += taker.weight;
+            }
+            m_first[i] = glm::max(sum / weight, vec3(0));
+            m_grid[i].surfaces.ambient = m_first[i];
+            m_grid[i].surfaces.directed = vec3(0);
+            m_grid[i].isFitted = true;
+        }
+        for (AskedLuxel& luxel : m_luxels)
+            luxel.lack -= lightOf(luxel);
+    }
+
+    void improve() {
+        for (size_t i = 0; i < m_grid.size(); ++i) {
+            if (m_takers[i].empty()) continue;
+            GridShare& light = m_grid[i].surfaces;
+            improve(m_takers[i], m_first[i], light.ambient, [](const AskedLuxel&) { return 1.0f; });
+            improve(m_takers[i], vec3(0), light.directed, [](const AskedLuxel& luxel) { return luxel.facing; });
+        }
+    }
+
+  private:
+    struct AskedLuxel {
+        CellMix mix;
+        float facing;
+        vec3 lack; ///< since begin(): what the grid does not give it yet
+    };
+    struct Taker {
+        uint32_t luxel;
+        float weight;
+    };
+    std::vector<GridCell>& m_grid;
+    std::vector<AskedLuxel> m_luxels;
+    std::vector<std::vector<Taker>> m_takers; ///< by cell
+    std::vector<vec3> m_first;                ///< what a cell begins with
+
+    vec3 lightOf(const AskedLuxel& luxel) const {
+        vec3 sum(0);
+        for (uint32_t k = 0; k < luxel.mix.count; ++k) {
+            const GridShare& light = m_grid[luxel.mix.cell[k]].surfaces;
+            sum += luxel.mix.weight[k] * (light.ambient + luxel.facing * light.directed);
+        }
+        return sum;
+    }
+
+    template <typename ShareTaken>
+    void improve(std::span<const Taker> takers, const vec3& first, vec3& light, const ShareTaken& shareTaken) {
+        vec3 sum = kFirstGuessLuxels * (first - light);
+        float size = kFirstGuessLuxels;
+        for (const Taker& taker : takers) {
+            const float share = taker.weight * shareTaken(m_luxels[taker.luxel]);
+            sum += share * m_luxels[taker.luxel].lack;
+            size += share * share;
+        }
+        const vec3 better = glm::max(light + sum / size, vec3(0));
+        for (const Taker& taker : takers)
+            m_luxels[taker.luxel].lack -= taker.weight * shareTaken(m_luxels[taker.luxel]) * (better - light);
+        light = better;
+    }
+};
+
+} // namespace
+
+std::vector<LuxelLack> findLacks(const World& world, const MaterialLibrary& materials, const LightProbe& probe,
+                                 const vec3& ambient, const vec3& floor) {
+    const double square = double(world.grid.cellSize.x) * world.grid.cellSize.y;
+    const auto count = static_cast<size_t>(kLuxelsPerCell * luxelAreaQu2(world, materials) / square);
+    const std::vector<Luxel> luxels = sampleLuxels(world, materials, count, 1);
+    std::vector<LuxelLack> lacks(luxels.size());
+    parallelFor(luxels.size(), [&](size_t i) {
+        const Luxel& luxel = luxels[i];
+        const vec3 offset = kLuxelOffsetQu * luxel.normal;
+        if (world.clusterOf(luxel.position + offset) < 0) return; // covered by another face
+        std::mt19937 random(static_cast<unsigned>(i));
+        const LightProbe::Seen seen = probe.look(luxel.position + offset, luxel.normal, kLuxelRays, random);
+        vec3 lights = ambient + seen.irradiance[0];
+        const bool thin = isThin(materials.get(world.surfaces[static_cast<size_t>(luxel.surface)].material));
+        if (thin) lights += probe.look(luxel.position - offset, -luxel.normal, kLuxelRays, random).irradiance[0];
+        lacks[i] = {luxel.position, luxel.normal, glm::max(luxel.baked, floor) - lights, seen.sunSeen, thin, true};
+    });
+    std::erase_if(lacks, [](const LuxelLack& lack) { return !lack.isOpen; });
+    return lacks;
+}
+
+void openCells(const World& world, std::vector<GridCell>& grid, const std::vector<LuxelLack>& lacks) {
+    std::vector<bool> mayOpen(grid.size());
+    for (size_t i = 0; i < grid.size(); ++i)
+        mayOpen[i] = grid[i].surfaces.valid || world.clusterOf(pointOf(world.grid, i)) >= 0;
+    const std::vector<bool> isOpen = mayOpen;
+    for (const LuxelLack& lack : lacks) {
+        if (!mixAt(world.grid, lack, [&](uint32_t cell) { return isOpen[cell]; }).isBehind) continue;
+        const CellMix around = mixAt(world.grid, lack, [](uint32_t) { return true; });
+        for (uint32_t k = 0; k < around.count; ++k)
+            mayOpen[around.cell[k]] = true;
+    }
+    std::vector<float> weight(grid.size(), 0), sunSeen(grid.size(), 0);
+    for (const LuxelLack& lack : lacks) {
+        const CellMix mix = mixAt(world.grid, lack, [&](uint32_t cell) { return mayOpen[cell]; });
+        for (uint32_t k = 0; k < mix.count; ++k) {
+            weight[mix.cell[k]] += mix.weight[k];
+            sunSeen[mix.cell[k]] += mix.weight[k] * lack.sunSeen;
+        }
+    }
+    for (size_t i = 0; i < grid.size(); ++i) {
+        if (grid[i].surfaces.valid || !(weight[i] > 0)) continue;
+        grid[i].surfaces.valid = true;
+        grid[i].sunSeen = sunSeen[i] / weight[i];
+    }
+}
+
+void fitGrid(const LightGrid& shape, std::vector<GridCell>& grid, const std::vector<LuxelLack>& lacks) {
+    GridFit fit(shape, grid, lacks);
+    fit.darkenUnasked();
+    fit.begin();
+    for (int round = 0; round < kRounds; ++round)
+        fit.improve();
+}
+
+} // namespace q3rt
