@@ -11,8 +11,8 @@
 #include "gpu/device.hpp"
 #include "gpu/readback.hpp"
 #include "renderer_rt/calibration.hpp"
-#include "renderer_rt/lost_light_file.hpp"
 #include "renderer_rt/trace_renderer.hpp"
+#include "scene/lost_light_file.hpp"
 
 namespace q3rt {
 

@@ -11,6 +11,7 @@
 #include "host/commands.hpp"
 #include "host/luxel_table.hpp"
 #include "host/session.hpp"
+#include "scene/lost_light_file.hpp"
 
 namespace q3rt {
 
@@ -19,7 +20,7 @@ namespace {
 struct InfoArguments {
     std::string map;
     GameChoice game;
-    bool all = false, json = false, luxels = false;
+    bool all = false, json = false, luxels = false, recovered = false;
     size_t luxelCount = 3000;
 };
 
@@ -80,7 +81,10 @@ void printMap(Pk3FileSource& files, const std::string& map, const InfoArguments&
     MaterialLibrary materials(files, textures, MaterialSettings{});
     const auto world = loadWorld(files, "maps/" + map + ".bsp", materials, WorldSettings{});
     if (arguments.luxels) {
-        printLuxels(map, *world, materials, arguments.luxelCount, arguments.json);
+        LightSet lights = extractLights(*world, materials);
+        const auto lost = arguments.recovered ? readLostLights(files, *world) : std::nullopt;
+        if (lost) applyLostLights(*lost, *world, materials, lights);
+        printLuxels(map, *world, materials, lights, arguments.luxelCount, arguments.json);
         return;
     }
     const MapCensus census = takeCensus(*world, materials);
@@ -117,6 +121,10 @@ void addInfoCommand(CLI::App& app, int& exitCode) {
     which->require_option(1);
     command->add_flag("--luxels", arguments->luxels,
                       "Compare the light of the lights found with the baked lightmap instead (docs/lights.md)");
+    command
+        ->add_flag("--recovered", arguments->recovered,
+                   "With --luxels: with the light of lights/MAP.ent, if it is there")
+        ->needs("--luxels");
     command->add_option("--points", arguments->luxelCount, "Luxels compared a map (default 3000)")
         ->check(CLI::Range(size_t{10}, size_t{10'000'000}));
     addGameOptions(*command, arguments->game);

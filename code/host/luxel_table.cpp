@@ -20,9 +20,8 @@ void printLuxelHeader() {
                 "baked", "traced", "surface", "sun", "sky", "points", "corr", "slope", "explained", "ratio");
 }
 
-void printLuxels(const std::string& map, const World& world, const MaterialLibrary& materials, size_t count,
-                 bool json) {
-    const LightSet lights = extractLights(world, materials);
+void printLuxels(const std::string& map, const World& world, const MaterialLibrary& materials, const LightSet& lights,
+                 size_t count, bool json) {
     const LuxelReport r =
         checkLuxels(world, materials, lights, count, kSeed, std::max(1u, std::thread::hardware_concurrency()));
     if (json) {

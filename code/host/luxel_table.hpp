@@ -1,13 +1,14 @@
 #pragma once
-// `q3rt info --luxels`: how much of a map's baked light its extracted lights explain, a row a map.
+// `q3rt info --luxels`: how much of a map's baked light some lights explain, a row a map.
 
 #include <string>
 
-#include "scene/world.hpp"
+#include "scene/lights.hpp"
 
 namespace q3rt {
 
 void printLuxelHeader();
-void printLuxels(const std::string& map, const World& world, const MaterialLibrary& materials, size_t count, bool json);
+void printLuxels(const std::string& map, const World& world, const MaterialLibrary& materials, const LightSet& lights,
+                 size_t count, bool json);
 
 } // namespace q3rt

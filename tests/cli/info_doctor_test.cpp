@@ -1,4 +1,5 @@
 #include <cstdlib>
+#include <fstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -46,6 +47,23 @@ TEST(Info, CountsTheTestMaps) {
     EXPECT_EQ(lights["triangles"], 6);
     // The outer clusters see 4 of the 6 triangles, the middle one all.
     EXPECT_NEAR(lights["triangles_seen_by_a_cluster"], (4 + 6 + 4) / 3.0, 1e-9);
+}
+
+TEST(Info, RecoveredLightsAreComparedWithLuxels) {
+    const std::filesystem::path base = makeGameFolder();
+    std::filesystem::create_directories(base / "mygame" / "lights");
+    std::ofstream(base / "mygame" / "lights" / (std::string(squareLightRoom::kName) + ".ent"))
+        << R"({ "classname" "light" "origin" "0 0 64" "light" "300" })";
+    const auto meanOfPoints = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments = {"info",   "--map",  squareLightRoom::kName, "--luxels",   "--json",
+                                              "--game", "mygame", "--basepath",           base.string()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramResult result = runQ3rt(arguments);
+        EXPECT_EQ(result.exitCode, 0) << result.errors;
+        return nlohmann::json::parse(result.output).at("mean_points").get<double>();
+    };
+    EXPECT_EQ(meanOfPoints({}), 0);
+    EXPECT_GT(meanOfPoints({"--recovered"}), 0);
 }
 
 TEST(Info, BadInputIsOneLine) {

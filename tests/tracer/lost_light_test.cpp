@@ -7,7 +7,7 @@
 #include "base/log.hpp"
 #include "renderer_rt/grid_fit.hpp"
 #include "renderer_rt/grid_light.hpp"
-#include "renderer_rt/lost_light_file.hpp"
+#include "scene/lost_light_file.hpp"
 #include "tests/truth/test_game.hpp"
 #include "trace_harness.hpp"
 

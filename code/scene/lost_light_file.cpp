@@ -1,4 +1,4 @@
-#include "renderer_rt/lost_light_file.hpp"
+#include "scene/lost_light_file.hpp"
 
 #include "base/error.hpp"
 #include "base/log.hpp"
