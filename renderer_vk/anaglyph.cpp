@@ -73,7 +73,11 @@ void Anaglyph::record(PassContext& pass, ImageId left, ImageId picture) const {
         pass.makeSet(m_layout, {bindStorageImage(0, pass.view(left)), bindStorageImage(1, pass.view(picture))});
     m_pipeline.bind(pass.commands());
     m_pipeline.bindSets(pass.commands(), {set});
-    m_pipeline.push(pass.commands(), glassesOf(m_mode));
+    AnaglyphPush glasses = glassesOf(m_mode);
+    if (m_context.blueFirst())
+        for (vec3* colors : {&glasses.left, &glasses.right})
+            std::swap(colors->r, colors->b);
+    m_pipeline.push(pass.commands(), glasses);
     m_pipeline.dispatchOver(pass.commands(), pass.extent(picture));
 }
 

@@ -33,6 +33,28 @@ VkExtent2D scaledExtent(VkExtent2D extent, int percent) {
     return {scale(extent.width), scale(extent.height)};
 }
 
+/// Scaled if the sizes differ.
+void blit(PassContext& pass, ImageId from, ImageId to) {
+    const VkExtent2D size = pass.extent(from), wanted = pass.extent(to);
+    VkImageBlit region{};
+    region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.srcOffsets[1] = {static_cast<int>(size.width), static_cast<int>(size.height), 1};
+    region.dstOffsets[1] = {static_cast<int>(wanted.width), static_cast<int>(wanted.height), 1};
+    const bool same = size.width == wanted.width && size.height == wanted.height;
+    vkCmdBlitImage(pass.commands(), pass.image(from), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, pass.image(to),
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, same ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
+}
+
+/// Whatever the formats say.
+void copyBytes(PassContext& pass, ImageId from, ImageId to) {
+    const VkExtent2D size = pass.extent(to);
+    VkImageCopy region{};
+    region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.extent = {size.width, size.height, 1};
+    vkCmdCopyImage(pass.commands(), pass.image(from), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, pass.image(to),
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+}
+
 } // namespace
 
 GpuContext::GpuContext(EngineServices& engine, const RasterSettings& settings, bool rasterizer)
@@ -62,6 +84,8 @@ GpuContext::GpuContext(EngineServices& engine, const RasterSettings& settings, b
     m_textures = std::make_unique<TextureStore>(*m_device);
     if (m_device->surface() != VK_NULL_HANDLE)
         m_swapchain = std::make_unique<Swapchain>(*m_device, m_window->drawableExtent(), settings.r_swapInterval);
+    m_blueFirst = rasterizer && m_swapchain && m_device->capabilities().software &&
+                  m_swapchain->format() == VK_FORMAT_B8G8R8A8_UNORM;
     if (rasterizer) m_samples = chooseSamples(m_device->capabilities(), settings.r_ext_multisample);
     m_main = makeTargets(m_extent, "target");
     if (rasterizer && settings.r_renderScale != 100)
@@ -147,6 +171,17 @@ void GpuContext::beginFrame() {
 
 void GpuContext::abandonFrame() {
     if (m_ring->recording()) m_ring->abandon();
+    if (m_swapchain) m_swapchain->abandonImage();
+}
+
+ImageId GpuContext::addScaling(FrameGraph& graph, ImageId picture, VkExtent2D extent) {
+    return graph.addPass(
+        "scale to window",
+        [&](PassBuilder& pass) {
+            pass.read(picture, access::kTransferRead);
+            return pass.create("scaled picture", {.extent = extent, .format = kTargetFormat}, access::kTransferWrite);
+        },
+        [picture](PassContext& pass, ImageId scaled) { blit(pass, picture, scaled); });
 }
 
 void GpuContext::addPresent(FrameGraph& graph, ImageId target) {
@@ -154,22 +189,20 @@ void GpuContext::addPresent(FrameGraph& graph, ImageId target) {
     if (m_ramp->changesPicture()) target = m_ramp->addPass(graph, target);
     ImageId screen = graph.importForeign("screen", m_swapchain->image(), m_swapchain->view(),
                                          {.extent = m_swapchain->extent(), .format = m_swapchain->format()});
+    const VkExtent2D size = m_swapchain->extent();
+    if (m_blueFirst && (size.width != m_extent.width || size.height != m_extent.height))
+        target = addScaling(graph, target, size);
     graph.addPass(
         "present copy",
         [&](PassBuilder& pass) {
             pass.read(target, access::kTransferRead);
             screen = pass.write(screen, access::kTransferWrite);
         },
-        [target, screen](PassContext& pass) {
-            const VkExtent2D from = pass.extent(target), to = pass.extent(screen);
-            VkImageBlit region{};
-            region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-            region.srcOffsets[1] = {static_cast<int>(from.width), static_cast<int>(from.height), 1};
-            region.dstOffsets[1] = {static_cast<int>(to.width), static_cast<int>(to.height), 1};
-            const bool same = from.width == to.width && from.height == to.height;
-            vkCmdBlitImage(pass.commands(), pass.image(target), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                           pass.image(screen), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
-                           same ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
+        [target, screen, bytes = m_blueFirst](PassContext& pass) {
+            if (bytes)
+                copyBytes(pass, target, screen);
+            else
+                blit(pass, target, screen);
         });
     graph.addPass(
         "present",
@@ -191,7 +224,7 @@ void GpuContext::endFrame(FrameGraph& graph, FrameImage* capture, Show show) {
     capture->rgb.resize(pixels * 3);
     for (size_t i = 0; i < pixels; ++i)
         for (size_t c = 0; c < 3; ++c)
-            capture->rgb[i * 3 + c] = (*m_ramp)[static_cast<uint8_t>(rgba[i * 4 + c])];
+            capture->rgb[i * 3 + c] = (*m_ramp)[static_cast<uint8_t>(rgba[i * 4 + (m_blueFirst ? 2 - c : c)])];
 }
 
 void GpuContext::followWindow(const RasterSettings& settings) {

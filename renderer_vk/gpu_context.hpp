@@ -48,6 +48,9 @@ class GpuContext {
     GpuImage& target() { return m_main.color; }
     TargetImages& main() { return m_main; }
     VkSampleCountFlagBits samples() const { return m_samples; }
+    /// Pictures hold blue where their format says red: as the window wants it, so that it takes a plain copy. Only
+    /// where a processor draws, which would spend more on exchanging them than on the copy.
+    bool blueFirst() const { return m_blueFirst; }
     /// Where the world is drawn if not into the picture itself; null otherwise.
     TargetImages* scaledWorld() { return m_scaledWorld ? &*m_scaledWorld : nullptr; }
     DisplayInfo displayInfo() const;
@@ -71,6 +74,7 @@ class GpuContext {
     void minimize();
 
   private:
+    ImageId addScaling(FrameGraph& graph, ImageId picture, VkExtent2D extent);
     EngineServices& m_engine;
     FrameArena m_frameMemory;
     std::unique_ptr<Window> m_window;
@@ -86,7 +90,7 @@ class GpuContext {
     VkSampleCountFlagBits m_samples = VK_SAMPLE_COUNT_1_BIT;
     VkExtent2D m_extent{640, 480};
     float m_aspect = 4.0f / 3.0f;
-    bool m_fullscreen = false;
+    bool m_fullscreen = false, m_blueFirst = false;
 };
 
 } // namespace q3rt

@@ -214,12 +214,13 @@ StateKey skyBoxKey(bool clipped, const std::vector<Stage>& clouds) {
 }
 
 PipelineSet::PipelineSet(Device& device, VkDescriptorSetLayout frameLayout, VkDescriptorSetLayout textureLayout,
-                         VkFormat depthFormat, VkSampleCountFlagBits samples)
+                         VkFormat depthFormat, VkSampleCountFlagBits samples, bool blueFirst)
     : m_device(device)
     , m_frameLayout(frameLayout)
     , m_textureLayout(textureLayout)
     , m_depthFormat(depthFormat)
-    , m_samples(samples) {}
+    , m_samples(samples)
+    , m_blueFirst(blueFirst) {}
 
 void PipelineSet::setGreyscale(float amount) {
     if (amount != m_greyscale) m_pipelines.clear();
@@ -239,7 +240,8 @@ const GraphicsPipeline& PipelineSet::find(const StateKey& key) {
                                              key.layerCount,
                                              layerWord(key.layers[0]),
                                              layerWord(key.layers[1]),
-                                             layerWord(key.layers[2])};
+                                             layerWord(key.layers[2]),
+                                             m_blueFirst ? 1u : 0u};
     GraphicsPipelineInfo info;
     info.name = "raster";
     info.vertex = {shaders::vk_raster_vert, vertexConstants};

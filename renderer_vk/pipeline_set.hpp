@@ -57,7 +57,7 @@ StateKey skyBoxKey(bool clipped, const std::vector<Stage>& clouds = {});
 class PipelineSet {
   public:
     PipelineSet(Device& device, VkDescriptorSetLayout frameLayout, VkDescriptorSetLayout textureLayout,
-                VkFormat depthFormat, VkSampleCountFlagBits samples);
+                VkFormat depthFormat, VkSampleCountFlagBits samples, bool blueFirst);
     const GraphicsPipeline& find(const StateKey& key);
     /// r_greyscale of all colours; a change drops every pipeline. The device is idle.
     void setGreyscale(float amount);
@@ -73,6 +73,7 @@ class PipelineSet {
     VkDescriptorSetLayout m_frameLayout, m_textureLayout;
     VkFormat m_depthFormat;
     VkSampleCountFlagBits m_samples;
+    bool m_blueFirst; ///< GpuContext::blueFirst()
     float m_greyscale = 0;
     std::map<StateKey, GraphicsPipeline> m_pipelines;
 };

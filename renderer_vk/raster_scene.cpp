@@ -47,7 +47,7 @@ RasterScene::RasterScene(GpuContext& context)
     : m_context(context)
     , m_frameLayout(makeFrameLayout(context.device()))
     , m_pipelines(context.device(), m_frameLayout.handle(), context.textures().layout(), context.main().depth.format(),
-                  context.samples())
+                  context.samples(), context.blueFirst())
     , m_vertexStream(
           context.device(),
           streamInfo(busyFrame::kVertices * sizeof(Vertex), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "vertex stream"),
@@ -176,11 +176,12 @@ void RasterScene::addScaledView(FrameGraph& graph, FrameTargets& targets, const 
 void RasterScene::addClear(FrameGraph& graph, FrameTargets& targets) {
     graph.addPass(
         "clear", [&](PassBuilder& pass) { writeTargets(pass, targets); },
-        [current = targets](PassContext& pass) {
+        [current = targets, blueFirst = m_context.blueFirst()](PassContext& pass) {
             // A colour that no map has: what no surface covers shows it.
+            constexpr float kRed = 1.0f, kBlue = 0.5f;
             Attachment color = colorAttachment(pass, current);
             color.load = VK_ATTACHMENT_LOAD_OP_CLEAR;
-            color.clear = {.color = {.float32 = {1.0f, 0.0f, 0.5f, 1.0f}}};
+            color.clear = {.color = {.float32 = {blueFirst ? kBlue : kRed, 0.0f, blueFirst ? kRed : kBlue, 1.0f}}};
             const Attachment depth{.view = pass.view(current.depth),
                                    .load = VK_ATTACHMENT_LOAD_OP_CLEAR,
                                    .clear = {.depthStencil = {1.0f, 0}},

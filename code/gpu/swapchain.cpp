@@ -210,6 +210,16 @@ bool Swapchain::acquire(VkExtent2D extent) {
     return false;
 }
 
+void Swapchain::abandonImage() {
+    if (!m_acquired) return;
+    m_acquired = false;
+    m_stale = true; // the next one begins with all its images
+    // Nobody waits for this one any more: it stays signalled.
+    m_device.waitIdle();
+    vkDestroySemaphore(m_device.handle(), imageReady(), nullptr);
+    m_readySemaphores[m_readyIndex] = makeSemaphore();
+}
+
 void Swapchain::noteSubmitted(Show show) {
     m_acquired = false;
     m_submitted = m_current;

@@ -36,6 +36,8 @@ class Swapchain {
     VkExtent2D extent() const { return m_extent; }
     VkFormat format() const { return m_format; } // 8-bit UNORM: the engine's bytes go out as they are
     bool acquired() const { return m_acquired; }
+    /// The frame of an acquired image never comes: a swapchain whose images aren't given back runs out of them.
+    void abandonImage();
     /// The window system took the surface: another one is made at the next acquire().
     void loseSurface() { m_lost = true; }
     /// When an image is shown, for people.

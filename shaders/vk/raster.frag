@@ -20,6 +20,7 @@ layout(location = 0) out vec4 outColor;
 layout(constant_id = 6) const uint kLayer1 = 0u; // kLayer*
 layout(constant_id = 7) const uint kLayer2 = 0u;
 layout(constant_id = 8) const uint kLayer3 = 0u;
+layout(constant_id = 9) const uint kBlueFirst = 0u; // 1: the target's red is its blue
 
 // Fixed ids of the texture library.
 const uint kTextureDlight = 3u;
@@ -84,4 +85,5 @@ void main() {
     if (kLayers > 1u) outColor.rgb = layersOver(outColor); // before pixels end: they have parts in derivatives
     if (kClipped != 0u && inClip < 0.0) discard;
     if (kAlphaTest != kTestNone && !alphaPasses(kAlphaTest, outColor.a)) discard;
+    if (kBlueFirst != 0u) outColor.rgb = outColor.bgr; // blending treats each colour alone
 }
