@@ -22,6 +22,8 @@ using uint = uint32_t;
 constexpr uint32_t kLuxelRays = 16;
 /// Luxels looked at for each square of the grid.
 constexpr double kLuxelsPerCell = 8;
+/// No more of a map of absurd extent: its light is noise, and loading it must end.
+constexpr double kMostLuxels = 1 << 20;
 /// How far off their faces map compilers put their samples, qu.
 constexpr float kLuxelOffsetQu = 1;
 /// How many luxels at a cell's own place outweigh what it begins with. Neighbours that share their luxels can't be told
@@ -171,7 +173,8 @@ class GridFit {
 std::vector<LuxelLack> findLacks(const World& world, const MaterialLibrary& materials, const LightProbe& probe,
                                  const vec3& ambient, const vec3& floor) {
     const double square = double(world.grid.cellSize.x) * world.grid.cellSize.y;
-    const auto count = static_cast<size_t>(kLuxelsPerCell * luxelAreaQu2(world, materials) / square);
+    const double wanted = kLuxelsPerCell * luxelAreaQu2(world, materials) / square;
+    const auto count = static_cast<size_t>(wanted < kMostLuxels ? wanted : kMostLuxels); // not a number: the most
     const std::vector<Luxel> luxels = sampleLuxels(world, materials, count, 1);
     std::vector<LuxelLack> lacks(luxels.size());
     parallelFor(luxels.size(), [&](size_t i) {

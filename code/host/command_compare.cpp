@@ -16,6 +16,7 @@
 #include "host/commands.hpp"
 #include "host/exr_file.hpp"
 #include "host/file_bytes.hpp"
+#include "host/option_checks.hpp"
 #include "metrics/image_metrics.hpp"
 
 namespace q3rt {
@@ -92,11 +93,14 @@ void addCompareCommand(CLI::App& app, int& exitCode) {
     const auto arguments = std::make_shared<CompareArguments>();
     command->add_option("reference", arguments->reference, "The picture that is right")->required();
     command->add_option("test", arguments->test, "The picture to judge")->required();
-    command->add_option("--heatmap", arguments->heatmap, "Also write FLIP's error of every pixel as a PNG file");
-    command->add_option("--ppd", arguments->pixelsPerDegree, "Pixels per degree of view that FLIP assumes")
-        ->check(CLI::PositiveNumber)
+    command->add_option("--heatmap", arguments->heatmap, "Also write FLIP's error of every pixel as a PNG file")
+        ->check(
+            [](const std::string& name) { return name.ends_with(".png") ? "" : "'" + name + "' must end in .png"; });
+    command->add_option("--ppd", arguments->pixelsPerDegree, "Pixels per degree of view that FLIP assumes, 1 to 1000")
+        ->check(number(1, 1000))
         ->capture_default_str();
     command->add_flag("--json")->description("The output is JSON in any case");
+    command->footer("Example: q3rt compare reference.png test.png --heatmap errors.png");
     command->callback([arguments, &exitCode] {
         runCompare(*arguments);
         exitCode = 0;

@@ -65,6 +65,7 @@ void addDoctorCommand(CLI::App& app, int& exitCode) {
     command->add_option("--out", options.outputFolder, "A folder to try to write into");
     command->add_flag("--deep", options.deep, "Read every file of every archive and check its sum");
     command->add_flag("--json", arguments->json, "One JSON object instead of text");
+    command->footer("Example: q3rt doctor --basepath ~/quake3 --game baseq3 --map q3dm1");
     command->callback([arguments, demo, &exitCode] {
         arguments->options.demoNeeded = demo->count() > 0;
         const std::vector<Check> checks = examineMachine(arguments->options);

@@ -10,6 +10,7 @@
 #include "host/census.hpp"
 #include "host/commands.hpp"
 #include "host/luxel_table.hpp"
+#include "host/option_checks.hpp"
 #include "host/session.hpp"
 #include "scene/lost_light_file.hpp"
 
@@ -125,10 +126,11 @@ void addInfoCommand(CLI::App& app, int& exitCode) {
         ->add_flag("--recovered", arguments->recovered,
                    "With --luxels: with the light of lights/MAP.ent, if it is there")
         ->needs("--luxels");
-    command->add_option("--points", arguments->luxelCount, "Luxels compared a map (default 3000)")
-        ->check(CLI::Range(size_t{10}, size_t{10'000'000}));
+    command->add_option("--points", arguments->luxelCount, "Luxels compared a map, 10 to 10000000 (default 3000)")
+        ->check(wholeNumber(10, 10'000'000));
     addGameOptions(*command, arguments->game);
     command->add_flag("--json", arguments->json, "One JSON object instead of text");
+    command->footer("Example: q3rt info --map oa_dm1 --json");
     command->callback([arguments, &exitCode] {
         runInfo(*arguments);
         exitCode = 0;

@@ -12,6 +12,7 @@
 #include "host/engine_process.hpp"
 #include "host/file_bytes.hpp"
 #include "host/lost_light_files.hpp"
+#include "host/option_checks.hpp"
 #include "host/output_file.hpp"
 
 namespace q3rt {
@@ -68,9 +69,10 @@ class PlayReport {
         if (json)
             std::printf("%s\n", line.dump().c_str());
         else
-            std::printf("%zu frames, median %.2f ms, 99th percentile %.2f ms, device %s, %zu pictures%s%s\n",
-                        times.count, times.medianMs, times.p99Ms, m_device.c_str(), m_pictures,
-                        m_folder.isWanted() ? " in " : "", m_folder.path().c_str());
+            std::printf("%s, median %.2f ms, 99th percentile %.2f ms, device %s, %s%s%s\n",
+                        countOf(times.count, "frame").c_str(), times.medianMs, times.p99Ms, m_device.c_str(),
+                        countOf(m_pictures, "picture").c_str(), m_folder.isWanted() ? " in " : "",
+                        m_folder.path().c_str());
     }
     size_t frameCount() const { return m_times.size(); }
 
@@ -92,7 +94,8 @@ void runPlay(PlayArguments& a) {
     if (a.relight) ensureLostLights(*files, run.game, run.map);
     run.headless = run.headless || !hasDisplay();
     if (run.headless && a.demo.empty() && run.frameLimit == 0)
-        throw UsageError("a game without a display needs an end: give --demo, or --map with --frames");
+        throw CLI::ValidationError("play",
+                                   "a game without a display needs an end: give --demo, or --map with --frames");
     run.timed = run.timed || run.headless;
     // What only the interposer can do or tell.
     run.watched = run.headless || !a.out.empty() || !a.stats.empty() || run.frameLimit > 0 || a.json;
@@ -121,16 +124,16 @@ void addPlayCommand(CLI::App& app, int& exitCode) {
     command->add_flag("--headless", a->run.headless, "No window (the default where there is no display)");
     addSizeOption(*command, a->run.size);
     addSetOption(*command, a->run.cvars);
-    command->add_flag("--timedemo", a->run.timed, "Draw each frame of the demo once, as fast as possible");
-    command->add_option("--frames", a->run.frameLimit, "Stop after so many frames of the world")
-        ->check(CLI::PositiveNumber);
+    command->add_flag("--timedemo", a->run.timed, "Draw each frame of the demo once, as fast as possible")->needs(demo);
+    command->add_option("--frames", a->run.frameLimit, "Stop after so many frames of the world")->check(wholeNumber(1));
     command->add_option("--out", a->out, "Folder for PNG pictures and summary.json");
     command->add_option("--every", a->every, "Keep the picture of every N-th frame")
-        ->check(CLI::PositiveNumber)
+        ->check(wholeNumber(1))
         ->capture_default_str();
     command->add_option("--stats", a->stats, "File for one JSON object a frame");
     command->add_flag("--json", a->json, "Print the summary as one JSON object");
     addGameOptions(*command, a->run.game);
+    command->footer("Example: q3rt play --map oa_dm1 --renderer rt --set rt_preset=fast --set rt_targetMs=16");
     command->callback([a, &exitCode] {
         runPlay(*a);
         exitCode = 0;

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "host/commands.hpp"
 #include "host/engine_process.hpp"
+#include "host/option_checks.hpp"
 #include "host/output_file.hpp"
 
 namespace q3rt {
@@ -61,9 +62,9 @@ void runRecord(RecordArguments& a) {
                                              {"bytes", bytes}};
         std::printf("%s\n", line.dump().c_str());
     } else {
-        std::printf("%s: %u frames of %s at %dx%d, %u loading frames, %zu files read, %.1f MB\n", a.out.c_str(),
-                    info.frameCount, info.map.c_str(), info.width, info.height, info.loadingFrameCount,
-                    recording.files().size(), static_cast<double>(bytes) / 1e6);
+        std::printf("%s: %s of %s at %dx%d, %u loading frames, %zu files read, %.1f MB\n", a.out.c_str(),
+                    countOf(info.frameCount, "frame").c_str(), info.map.c_str(), info.width, info.height,
+                    info.loadingFrameCount, recording.files().size(), static_cast<double>(bytes) / 1e6);
     }
 }
 
@@ -75,19 +76,20 @@ void addRecordCommand(CLI::App& app, int& exitCode) {
     const auto a = std::make_shared<RecordArguments>();
     command->add_option("--demo", a->demo, "Demo of the game, such as demo088-test1")->required();
     command->add_option("--out", a->out, "Recording to write (.q3t)")->required();
-    command->add_option("--first", a->run.recordFirst, "First world frame to keep")->check(CLI::NonNegativeNumber);
+    command->add_option("--first", a->run.recordFirst, "First world frame to keep")->check(wholeNumber(0));
     command->add_option("--count", a->run.recordCount, "Number of frames to keep (default: to the end)")
-        ->check(CLI::PositiveNumber);
+        ->check(wholeNumber(1));
     addRendererOption(*command, a->renderer);
     command->add_option("--pictures", a->pictures,
                         "Folder for the recorded renderer's own pictures, named by frame number as replay names them");
     command->add_option("--every", a->every, "With --pictures: keep every N-th frame's, counted from the demo's start")
-        ->check(CLI::PositiveNumber)
+        ->check(wholeNumber(1))
         ->capture_default_str();
     addSizeOption(*command, a->run.size);
     addSetOption(*command, a->run.cvars);
     command->add_flag("--json", a->json, "Print the summary as one JSON object");
     addGameOptions(*command, a->run.game);
+    command->footer("Example: q3rt record --demo demo088-test1 --first 600 --count 300 --out demo.q3t");
     command->callback([a, &exitCode] {
         runRecord(*a);
         exitCode = 0;

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "host/commands.hpp"
 #include "host/lost_light_files.hpp"
+#include "host/option_checks.hpp"
 
 namespace q3rt {
 namespace {
@@ -120,13 +121,14 @@ void addRelightCommand(CLI::App& app, int& exitCode) {
     which->add_flag("--all", a->all, "Every map of the game that has no file yet; goes on where it was broken off");
     which->require_option(1);
     command->add_flag("--again", a->again, "With --all: also the maps that have a file");
-    command->add_option("--budget", a->settings.budget, "Point and spot lights at most")
-        ->check(CLI::Range(size_t{0}, size_t{100'000}))
+    command->add_option("--budget", a->settings.budget, "Point and spot lights at most, up to 100000")
+        ->check(wholeNumber(0, 100'000))
         ->capture_default_str();
     command->add_option("--out", a->out, "Folder for MAP.ent (default: lights/ in q3rt's home folder of the game)")
         ->type_name("DIR");
     addGameOptions(*command, a->game);
     command->add_flag("--json", a->json, "One JSON object a map instead of text");
+    command->footer("Example: q3rt relight --map oa_dm1");
     command->callback([a, &exitCode] {
         runRelightCommand(*a);
         exitCode = 0;

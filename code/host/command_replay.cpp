@@ -10,6 +10,7 @@
 #include "host/commands.hpp"
 #include "host/headless/replayer.hpp"
 #include "host/map_stage.hpp"
+#include "host/option_checks.hpp"
 #include "host/output_file.hpp"
 #include "host/session.hpp"
 
@@ -71,8 +72,8 @@ void printSummary(const ReplayArguments& arguments, const TimeSummary& times, co
         std::printf("%s\n", line.dump().c_str());
         return;
     }
-    std::printf("%zu frames at %dx%d: median %.2f ms, 99th percentile %.2f ms (%s)\n", times.count, config.vidWidth,
-                config.vidHeight, times.medianMs, times.p99Ms, config.renderer_string);
+    std::printf("%s at %dx%d: median %.2f ms, 99th percentile %.2f ms (%s)\n", countOf(times.count, "frame").c_str(),
+                config.vidWidth, config.vidHeight, times.medianMs, times.p99Ms, config.renderer_string);
 }
 
 void runReplay(const ReplayArguments& arguments) {
@@ -124,19 +125,24 @@ void addReplayCommand(CLI::App& app, int& exitCode) {
     addRendererOption(*command, a->renderer);
     addSizeOption(*command, a->size);
     command->add_option("--first", a->first, "First world frame to draw (default: the first one)")
-        ->check(CLI::NonNegativeNumber);
-    command->add_option("--count", a->count, "Number of frames (default: to the end)")->check(CLI::PositiveNumber);
+        ->check(wholeNumber(0));
+    command->add_option("--count", a->count, "Number of frames (default: to the end)")->check(wholeNumber(1));
     command->add_option("--warmup", a->warmup, "Frames before --first that are drawn but not kept")
-        ->check(CLI::NonNegativeNumber);
+        ->check(wholeNumber(0))
+        ->capture_default_str();
     command->add_option("--accumulate", a->accumulate, "Draws of each frame that are averaged (rt_accumulate)")
-        ->check(CLI::PositiveNumber);
-    command->add_option("--every", a->every, "Keep the picture of every N-th frame only")->check(CLI::PositiveNumber);
+        ->check(wholeNumber(1))
+        ->capture_default_str();
+    command->add_option("--every", a->every, "Keep the picture of every N-th frame only")
+        ->check(wholeNumber(1))
+        ->capture_default_str();
     command->add_option("--out", a->out, "Folder for PNG pictures, named by frame number");
     command->add_option("--stats", a->stats, "File for one JSON object a frame");
     command->add_flag("--json", a->json, "Print the summary as one JSON object");
     command->add_flag("--verbose", a->verbose, "Show the renderer's messages");
     addSetOption(*command, a->cvars);
     addGameOptions(*command, a->game);
+    command->footer("Example: q3rt replay demo.q3t --renderer vk --size 1920x1080 --every 10 --out pictures");
     command->callback([a, &exitCode] {
         runReplay(*a);
         exitCode = 0;

@@ -53,6 +53,9 @@ void runSubset(const SubsetArguments& a) {
         loadTrace(engine, *recording);
     else
         stage->load(engine);
+    // What the renderers look for by themselves: the sun, flares, the font of numbers on the picture.
+    for (const char* name : {"sun", "flareShader", "gfx/2d/bigchars"})
+        engine.enter([name](const refexport_t& module) { module.RegisterShader(name); });
     std::vector<std::pair<std::string, std::vector<std::byte>>> entries;
     for (const std::string& name : engine.filesRead())
         if (auto bytes = files->read(name)) entries.emplace_back(name, std::move(*bytes));
@@ -64,7 +67,8 @@ void runSubset(const SubsetArguments& a) {
             "%s\n",
             nlohmann::ordered_json{{"archive", a.out}, {"files", entries.size()}, {"bytes", size}}.dump().c_str());
     else
-        std::printf("%s: %zu files, %.1f MB\n", a.out.c_str(), entries.size(), static_cast<double>(size) / 1e6);
+        std::printf("%s: %s, %.1f MB\n", a.out.c_str(), countOf(entries.size(), "file").c_str(),
+                    static_cast<double>(size) / 1e6);
 }
 
 } // namespace
@@ -79,6 +83,7 @@ void addSubsetCommand(CLI::App& app, int& exitCode) {
     command->add_option("--out", a->out, "Archive to write (.pk3)")->required();
     command->add_flag("--json", a->json, "Print the result as one JSON object");
     addGameOptions(*command, a->game);
+    command->footer("Example: q3rt subset --map oa_dm1 --out oa_dm1_only.pk3");
     command->callback([a, &exitCode] {
         runSubset(*a);
         exitCode = 0;

@@ -1,6 +1,7 @@
 // q3rt trade: what each setting costs and what error it buys.
 
 #include <algorithm>
+#include <climits>
 #include <cstdio>
 #include <memory>
 
@@ -11,10 +12,14 @@
 #include "host/commands.hpp"
 #include "host/evaluation.hpp"
 #include "host/file_bytes.hpp"
+#include "host/map_stage.hpp"
+#include "host/option_checks.hpp"
+#include "host/output_file.hpp"
 #include "host/trade_front.hpp"
 #include "host/trade_plot.hpp"
 #include "host/trade_presets.hpp"
 #include "host/trade_sweep.hpp"
+#include "metrics/image_metrics.hpp"
 
 namespace q3rt {
 namespace {
@@ -50,23 +55,20 @@ void setCvar(std::map<std::string, std::string>& cvars, const std::string& name,
 std::unique_ptr<TradeSource> openSource(const TradeArguments& a) {
     if (a.recording.empty() == a.map.map.empty())
         throw CLI::ValidationError("trade", "name either a recording (F.q3t) or --map M");
+    if (!a.map.map.empty() && !a.recordedFrames.empty())
+        throw CLI::ValidationError("--frames", "chooses frames of a recording, not of a map");
+    if (a.map.map.empty() && !a.map.places.empty())
+        throw CLI::ValidationError("--at", "chooses views of a map, not of a recording; use --frames");
     if (a.map.map.empty()) return openRecordingSource(a.recording, a.recordedFrames, a.plan.warmup, a.game);
     MapSourceOptions map = a.map;
     if (map.places.empty()) map.places = {"spawn:0"};
     return openMapSource(map, a.game);
 }
 
-/// A check of CLI11's: what `parse` says of a text, or nothing.
-template <class Parse>
-std::function<std::string(const std::string&)> checkedBy(Parse parse) {
-    return [parse](const std::string& text) {
-        try {
-            parse(text);
-            return std::string();
-        } catch (const UsageError& error) {
-            return std::string(error.what());
-        }
-    };
+void checkComparable(const PictureSize& size) {
+    if (size.width < kSsimWindow || size.height < kSsimWindow)
+        throw UsageError(formatText("pictures of %d x %d pixels can't be compared: choose a --size of %d x %d or more",
+                                    size.width, size.height, kSsimWindow, kSsimWindow));
 }
 
 std::vector<TradePoint> listPoints(const TradeArguments& a, const TradeSession& session) {
@@ -195,11 +197,15 @@ void runTrade(TradeArguments a) {
     const TradeShard shard = parseShard(a.shard);
     const std::filesystem::path module = findModule(a.renderer);
     const std::unique_ptr<TradeSource> source = openSource(a);
+    for (const std::string& result : {a.svg, a.presets})
+        if (!result.empty()) checkWritable(result);
     a.plan.pictures = a.pictures > 0 ? a.pictures : source->viewNames().size() > 1 ? 1 : kPicturesOfSingleView;
     TradeFile file(a.out);
     TradeSession session(*source, module, a.verbose);
     session.apply({a.size, {a.fixed.begin(), a.fixed.end()}});
     const std::vector<TradePoint> points = listPoints(a, session);
+    for (const TradePoint& point : points)
+        checkComparable(point.size);
     a.plan.reference = chooseReference(a, session, points);
     TradeMeter meter(session, *source, a.plan);
     const std::string device = session.device();
@@ -216,30 +222,37 @@ void runTrade(TradeArguments a) {
     report(a, title, points, std::move(results));
 }
 
+TradeClock parseClock(const std::string& name) {
+    if (name == "wall") return TradeClock::Wall;
+    if (name == "device") return TradeClock::Device;
+    throw UsageError("'" + name + "' is no clock: write wall or device");
+}
+
 /// Where a sweep's time goes.
 void addTimeOptions(CLI::App& command, TradeArguments& a) {
     command
         .add_option("--seconds-per-point", a.plan.secondsPerPoint,
                     "No more timed frames after so long, but 3 a view; 0: no limit")
-        ->check(CLI::NonNegativeNumber)
+        ->check(number(0))
         ->capture_default_str();
     command
         .add_option("--awake", a.plan.awakeSeconds,
                     "Seconds of drawing before a view's frames are timed: a GPU's clock sleeps while pictures are "
                     "compared")
-        ->check(CLI::NonNegativeNumber)
+        ->check(number(0))
         ->capture_default_str();
-    const std::map<std::string, TradeClock> clocks = {{"wall", TradeClock::Wall}, {"device", TradeClock::Device}};
     command
-        .add_option("--clock", a.clock,
-                    "The time that the front, the plot and presets are about: wall, or device: the sum of its passes")
-        ->transform(CLI::CheckedTransformer(clocks))
-        ->type_name("wall|device");
+        .add_option_function<std::string>(
+            "--clock", [&a](const std::string& name) { a.clock = parseClock(name); },
+            "The time that the front, the plot and presets are about: wall, or device: the sum of its passes")
+        ->type_name("wall|device")
+        ->default_str("wall")
+        ->check(checkedBy(parseClock));
 }
 
 void addSweepOptions(CLI::App& command, TradeArguments& a) {
     command.add_option("--points", a.pointCount, "The first N of the standard sweep's points, the telling ones first")
-        ->check(CLI::PositiveNumber)
+        ->check(wholeNumber(1))
         ->capture_default_str();
     command.add_flag_callback(
         "--smoke", [&a] { a.pointCount = kSmokePointCount; }, "10 points instead of 24: the most telling ones");
@@ -258,20 +271,20 @@ void addSweepOptions(CLI::App& command, TradeArguments& a) {
     command
         .add_option("--warmup", a.plan.warmup,
                     "Frames drawn before a view's measured ones, if the settings remember earlier frames")
-        ->check(CLI::NonNegativeNumber)
+        ->check(wholeNumber(0))
         ->capture_default_str();
     command.add_option("--count", a.plan.frames, "Timed frames a view, at most")
-        ->check(CLI::PositiveNumber)
+        ->check(wholeNumber(1))
         ->capture_default_str();
     command.add_option("--pictures", a.pictures, "Compared pictures a view (default: 1, of a single view 4)")
-        ->check(CLI::PositiveNumber);
+        ->check(wholeNumber(1));
     command.add_option("--reference-frames", a.plan.referenceFrames, "Frames that the reference averages, at most")
-        ->check(CLI::PositiveNumber)
+        ->check(wholeNumber(1))
         ->capture_default_str();
     command
         .add_option("--reference-error", a.plan.referenceError,
                     "A reference needs no more frames when it is so near to the truth by its own word: 1 - SSIM")
-        ->check(CLI::NonNegativeNumber)
+        ->check(number(0))
         ->capture_default_str();
     command
         .add_option_function<std::vector<std::string>>(
@@ -299,17 +312,20 @@ void addTradeCommand(CLI::App& app, int& exitCode) {
     command->add_option("recording", a->recording, "A .q3t file; or --map");
     command->add_option("--frames", a->recordedFrames, "World frames of the recording, such as 100,900 (default: 4)")
         ->delimiter(',')
-        ->check(CLI::NonNegativeNumber);
+        ->check(wholeNumber(0));
     command->add_option("--map", a->map.map, "Map name, such as oa_dm1");
     command
         ->add_option("--at", a->map.places,
                      "\"x y z pitch yaw\" (units, degrees), spawn:N or spawn:A..B; several times (default spawn:0)")
+        ->check(checkedBy([](const std::string& place) { parsePlace(expandPlace(place).front()); }))
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command->add_option("--fov", a->map.fovDegrees, "Horizontal field of view of a map's views in degrees")
-        ->check(CLI::Range(1.0f, 179.0f))
+    command->add_option("--fov", a->map.fovDegrees, "Horizontal field of view of a map's views in degrees, 1 to 179")
+        ->check(number(1, 179))
         ->capture_default_str();
-    command->add_option("--time", a->map.timeMs, "The clock of a map's views, in ms")->capture_default_str();
+    command->add_option("--time", a->map.timeMs, "The clock of a map's views, in ms")
+        ->check(wholeNumber(INT_MIN))
+        ->capture_default_str();
     CLI::Option* out =
         command->add_option("--out", a->out, "File for one JSON object a point; points in it are not measured again");
     command
@@ -321,6 +337,7 @@ void addTradeCommand(CLI::App& app, int& exitCode) {
     command
         ->add_option("--sizes", a->sizes, "Picture sizes of the evaluation's figures 7.7 to 7.9; 7.13 takes the first")
         ->delimiter(',')
+        ->check(checkedBy(parseSize))
         ->capture_default_str();
     command->add_option("--svg", a->svg, "Also draw time against error into this file");
     command->add_option("--presets", a->presets,
@@ -333,6 +350,7 @@ void addTradeCommand(CLI::App& app, int& exitCode) {
     command->add_flag("--json", a->json, "Print a JSON line a point instead of the table");
     command->add_flag("--verbose", a->verbose, "Show the renderer's messages");
     addGameOptions(*command, a->game);
+    command->footer("Example: q3rt trade --map oa_dm1 --at spawn:0..3 --smoke --out oa_dm1.jsonl --svg oa_dm1.svg");
     command->callback([a, out, &exitCode] {
         if (a->evaluation.empty() && out->empty()) throw CLI::RequiredError("--out");
         if (a->evaluation.empty())

@@ -1,5 +1,6 @@
 // q3rt view: one still picture of a map, from any point, by any module.
 
+#include <climits>
 #include <cstdio>
 #include <memory>
 
@@ -7,10 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
+#include "base/log.hpp"
 #include "host/commands.hpp"
 #include "host/exr_file.hpp"
 #include "host/file_bytes.hpp"
 #include "host/map_stage.hpp"
+#include "host/option_checks.hpp"
 #include "host/output_file.hpp"
 
 namespace q3rt {
@@ -85,13 +88,15 @@ void runView(const ViewArguments& a) {
     const refdef_t view = makeView(eye, a.fovDegrees, config.vidWidth, config.vidHeight, a.timeMs);
     const ViewResult result = drawFrames(engine, a, stage, view);
     reportSettings(engine.cvars, a.cvars);
+    if (const std::string warnings = engine.unshownWarnings(); !warnings.empty())
+        logLine(LogLevel::Warning, "%s", warnings.c_str());
     writeResult(engine, a, result);
     const TimeSummary times = summarizeTimes(result.wallMs);
     if (a.json)
         std::printf("%s\n", statsLine(a.frames, times.medianMs, result.stats).c_str());
     else
-        std::printf("%s: %s at %dx%d, %zu frames, median %.2f ms (%s)\n", a.out.c_str(), stage.file().c_str(),
-                    config.vidWidth, config.vidHeight, times.count, times.medianMs, config.renderer_string);
+        std::printf("%s: %s at %dx%d, %s, median %.2f ms (%s)\n", a.out.c_str(), stage.file().c_str(), config.vidWidth,
+                    config.vidHeight, countOf(times.count, "frame").c_str(), times.medianMs, config.renderer_string);
     engine.unloadModule();
 }
 
@@ -102,13 +107,14 @@ void addViewCommand(CLI::App& app, int& exitCode) {
     const auto a = std::make_shared<ViewArguments>();
     command->add_option("--map", a->map, "Map name, such as oa_dm1")->required();
     command->add_option("--at", a->at, "\"x y z pitch yaw\" (units, degrees), or spawn:N for the N-th player start")
+        ->check(checkedBy(parsePlace))
         ->capture_default_str();
-    command->add_option("--fov", a->fovDegrees, "Horizontal field of view in degrees")
-        ->check(CLI::Range(1.0f, 179.0f))
+    command->add_option("--fov", a->fovDegrees, "Horizontal field of view in degrees, 1 to 179")
+        ->check(number(1, 179))
         ->capture_default_str();
-    command->add_option("--time", a->timeMs, "The clock, in ms")->capture_default_str();
+    command->add_option("--time", a->timeMs, "The clock, in ms")->check(wholeNumber(INT_MIN))->capture_default_str();
     command->add_option("--frames", a->frames, "Frames drawn of the same view; with rt_accumulate 1 their mean is kept")
-        ->check(CLI::PositiveNumber)
+        ->check(wholeNumber(1))
         ->capture_default_str();
     command->add_option("--out", a->out, "Picture to write: .png, or .exr or .pfm for radiance as floats")
         ->required()
@@ -122,6 +128,8 @@ void addViewCommand(CLI::App& app, int& exitCode) {
     addSetOption(*command, a->cvars);
     command->add_flag("--json", a->json, "Print time and statistics as one JSON object");
     addGameOptions(*command, a->game);
+    command->footer(
+        "Example: q3rt view --map oa_dm1 --at spawn:2 --set rt_preset=quality --size 1280x720 --out view.png");
     command->callback([a, &exitCode] {
         runView(*a);
         exitCode = 0;

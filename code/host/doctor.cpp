@@ -84,8 +84,7 @@ void checkMap(Pk3FileSource& files, const std::string& map, std::vector<Check>& 
         loadWorld(files, "maps/" + map + ".bsp", materials, WorldSettings{});
         checks.push_back({"map", Finding::Good, map + " loads", ""});
     } catch (const ContentError& error) {
-        checks.push_back(
-            {"map", Finding::Problem, error.what(), "name another map with --map, or reinstall its archive"});
+        checks.push_back({"map", Finding::Problem, error.what(), ""});
     }
 }
 
@@ -105,7 +104,7 @@ Check checkRecording(const std::string& path) {
         return {"recording", Finding::Good,
                 formatText("%s: %u frames of %s", path.c_str(), info.frameCount, info.map.c_str()), ""};
     } catch (const ContentError& error) {
-        return {"recording", Finding::Problem, error.what(), "make it again: q3rt record --demo D --out F.q3t"};
+        return {"recording", Finding::Problem, error.what(), ""};
     }
 }
 
@@ -137,7 +136,7 @@ void checkDevices(std::vector<Check>& checks) {
     try {
         devices = listDevices();
     } catch (const DeviceError& error) {
-        checks.push_back({"Vulkan", Finding::Problem, error.what(), "./run --set-up fetches a software driver"});
+        checks.push_back({"Vulkan", Finding::Problem, error.what(), ""});
         return;
     }
     bool anyUsable = false, anyTracing = false;
@@ -175,7 +174,7 @@ Check checkOutputFolder(const std::string& folder) {
         const OutputFolder trial(folder);
         return {"output", Finding::Good, folder + " can be written", ""};
     } catch (const UsageError& error) {
-        return {"output", Finding::Problem, error.what(), "name a writable folder with --out"};
+        return {"output", Finding::Problem, error.what(), ""};
     }
 }
 

@@ -188,8 +188,8 @@ std::string lastError(const fs::path& console) {
     return found;
 }
 
-/// What the renderer said of settings that the user gave: a line that begins with such a name.
-void repeatWarnings(const fs::path& console, const CvarList& settings) {
+/// What the renderer said of settings that the user gave, short of its last word: a line that begins with such a name.
+void repeatWarnings(const fs::path& console, const CvarList& settings, const std::string& lastWord) {
     const std::vector<std::byte> bytes = readFileBytes(console);
     std::istringstream text(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
     std::set<std::string> repeated;
@@ -197,7 +197,7 @@ void repeatWarnings(const fs::path& console, const CvarList& settings) {
         if (line.starts_with('^')) line.erase(0, 2); // the engine's colour of warnings
         const std::string name = line.substr(0, line.find_first_of(": "));
         const bool given = std::ranges::any_of(settings, [&](const auto& setting) { return setting.first == name; });
-        if (given && repeated.insert(line).second) std::fprintf(stderr, "q3rt: %s\n", line.c_str());
+        if (given && line != lastWord && repeated.insert(line).second) std::fprintf(stderr, "q3rt: %s\n", line.c_str());
     }
 }
 
@@ -217,8 +217,8 @@ void runEngine(const EngineRun& run, const std::function<void(const WatchedFrame
     theirs.reset();
     if (run.watched) receiveFrames(ours.number, onFrame);
     const int status = child.wait();
-    if (run.headless) repeatWarnings(console, run.cvars);
     const std::string error = run.headless ? lastError(console) : std::string();
+    if (run.headless) repeatWarnings(console, run.cvars, error);
     if (error.starts_with(kRecordingEnded)) throw UsageError(error.substr(std::strlen(kRecordingEnded)));
     if (!error.empty() || status != 0)
         throw DeviceError(formatText("the engine failed (status %d)%s%s; 'q3rt doctor' looks for the cause", status,

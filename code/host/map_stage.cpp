@@ -1,10 +1,28 @@
 #include "host/map_stage.hpp"
 
+#include <cmath>
 #include <cstdio>
 
 #include "base/error.hpp"
 
 namespace q3rt {
+
+Place parsePlace(const std::string& at) {
+    Place place;
+    unsigned number = 0;
+    char rest = 0;
+    if (std::sscanf(at.c_str(), "spawn:%u%c", &number, &rest) == 1) {
+        place.spawnPoint = number;
+        return place;
+    }
+    EyePoint& eye = place.eye;
+    const int numbers = std::sscanf(at.c_str(), "%f %f %f %f %f %c", &eye.origin.x, &eye.origin.y, &eye.origin.z,
+                                    &eye.pitchDegrees, &eye.yawDegrees, &rest);
+    const float sum = eye.origin.x + eye.origin.y + eye.origin.z + eye.pitchDegrees + eye.yawDegrees;
+    if (numbers != 5 || !std::isfinite(sum))
+        throw UsageError("'" + at + "' is no place: write \"x y z pitch yaw\" or spawn:N");
+    return place;
+}
 
 MapStage::MapStage(Pk3FileSource& files, const std::string& map)
     : m_file("maps/" + map + ".bsp") {
@@ -15,19 +33,14 @@ MapStage::MapStage(Pk3FileSource& files, const std::string& map)
 }
 
 EyePoint MapStage::findEye(const std::string& at) const {
-    unsigned number = 0;
-    char rest = 0;
-    if (std::sscanf(at.c_str(), "spawn:%u%c", &number, &rest) == 1) {
-        if (number >= m_spawnPoints.size())
-            throw UsageError(formatText("%s has %zu spawn points, numbered from 0: choose another --at", m_file.c_str(),
-                                        m_spawnPoints.size()));
-        return m_spawnPoints[number];
-    }
-    EyePoint eye;
-    if (std::sscanf(at.c_str(), "%f %f %f %f %f %c", &eye.origin.x, &eye.origin.y, &eye.origin.z, &eye.pitchDegrees,
-                    &eye.yawDegrees, &rest) != 5)
-        throw UsageError("--at takes \"x y z pitch yaw\" or spawn:N, not '" + at + "'");
-    return eye;
+    const Place place = parsePlace(at);
+    if (!place.spawnPoint) return place.eye;
+    if (m_spawnPoints.empty())
+        throw UsageError(m_file + " has no spawn points: name a place with --at \"x y z pitch yaw\"");
+    if (*place.spawnPoint >= m_spawnPoints.size())
+        throw UsageError(formatText("%s has %zu spawn points, numbered from 0: choose another --at", m_file.c_str(),
+                                    m_spawnPoints.size()));
+    return m_spawnPoints[*place.spawnPoint];
 }
 
 void MapStage::load(HeadlessEngine& engine) {

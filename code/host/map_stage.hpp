@@ -2,6 +2,7 @@
 // A map as a module draws it without a game: loaded, movers at rest, seen from any point. Shared by the commands that
 // draw still views.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,13 +11,21 @@
 
 namespace q3rt {
 
+/// Where to look from.
+struct Place {
+    std::optional<unsigned> spawnPoint;
+    EyePoint eye; ///< if it is no spawn point
+};
+/// From "x y z pitch yaw" (units, degrees) or spawn:N. Throws UsageError.
+Place parsePlace(const std::string& at);
+
 class MapStage {
   public:
     /// Reads the map. Throws ContentError if it isn't there or is damaged.
     MapStage(Pk3FileSource& files, const std::string& map);
 
     const std::string& file() const { return m_file; } ///< such as maps/oa_dm1.bsp
-    /// "x y z pitch yaw" (units, degrees) or spawn:N. Throws UsageError.
+    /// Throws UsageError if parsePlace does or the map has no such spawn point.
     EyePoint findEye(const std::string& at) const;
     size_t spawnPointCount() const { return m_spawnPoints.size(); }
 

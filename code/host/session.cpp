@@ -14,20 +14,12 @@
 #include "formats/image.hpp"
 #include "host/file_bytes.hpp"
 #include "host/interrupt.hpp"
+#include "host/option_checks.hpp"
 
 namespace q3rt {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string readSize(const std::string& text, PictureSize& size) {
-    constexpr int kMost = 16384; // pixels a side that any Vulkan device of ours draws
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) == 2 && size.width > 0 &&
-        size.height > 0 && size.width <= kMost && size.height <= kMost)
-        return {};
-    return "'" + text + "' is no picture size: write WIDTHxHEIGHT in pixels, such as 640x480";
-}
 
 /// The engine finds them in its home folder (engine_setup.cpp).
 void addLights(Pk3FileSource& files, const Installation& installation) {
@@ -51,15 +43,23 @@ void addRendererOption(CLI::App& command, std::string& renderer) {
 }
 
 void addSizeOption(CLI::App& command, PictureSize& size) {
+    const std::string usual = size.width > 0 ? formatText("%dx%d", size.width, size.height) : "the recording's";
     command
         .add_option_function<std::string>(
-            "--size",
-            [&size](const std::string& text) {
-                const std::string problem = readSize(text, size);
-                if (!problem.empty()) throw CLI::ValidationError("--size", problem);
-            },
-            "Picture size in pixels, WIDTHxHEIGHT")
-        ->type_name("WxH");
+            "--size", [&size](const std::string& text) { size = parseSize(text); },
+            "Picture size in pixels (default: " + usual + ")")
+        ->type_name("WxH")
+        ->check(checkedBy(parseSize));
+}
+
+PictureSize parseSize(const std::string& text) {
+    constexpr int kMost = 16384; // pixels a side that any Vulkan device of ours draws
+    PictureSize size;
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) == 2 && size.width > 0 &&
+        size.height > 0 && size.width <= kMost && size.height <= kMost)
+        return size;
+    throw UsageError("'" + text + "' is no picture size: write WIDTHxHEIGHT in pixels, such as 640x480");
 }
 
 void addSetOption(CLI::App& command, CvarList& cvars) {
@@ -201,13 +201,17 @@ void Progress::advance(const std::string& at, double share) {
     using namespace std::chrono;
     const auto now = steady_clock::now();
     const auto interval = m_terminal ? milliseconds(200) : seconds(5);
-    const bool end = share >= 1;
-    if (now - m_last < interval && (!end || m_shown)) return;
+    const bool isLastOfLine = share >= 1 && m_shown && m_terminal;
+    if (now - m_last < interval && !isLastOfLine) return;
     m_last = now;
     m_shown = true;
     const double elapsed = duration<double>(now - m_start).count();
     const std::string left = share > 0 ? formatText(", %.0f s left", elapsed / share * (1 - share)) : "";
     std::fprintf(stderr, "%s%s%s%s", m_terminal ? "\r" : "", at.c_str(), left.c_str(), m_terminal ? "   " : "\n");
+}
+
+std::string countOf(size_t count, const char* what) {
+    return formatText("%zu %s%s", count, what, count == 1 ? "" : "s");
 }
 
 TimeSummary summarizeTimes(std::vector<double> ms) {

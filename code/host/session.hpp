@@ -31,6 +31,8 @@ void addGameOptions(CLI::App& command, GameChoice& choice);
 void addRendererOption(CLI::App& command, std::string& renderer);
 void addSizeOption(CLI::App& command, PictureSize& size);
 void addSetOption(CLI::App& command, CvarList& cvars);
+/// From WIDTHxHEIGHT. Throws UsageError.
+PictureSize parseSize(const std::string& text);
 
 /// "rt", "vk", "null" ...: our module beside the program; a name with a slash or ".so": that file. Throws UsageError.
 std::filesystem::path findModule(const std::string& renderer);
@@ -74,6 +76,9 @@ class Progress {
     bool m_shown = false;
     std::chrono::steady_clock::time_point m_start, m_last;
 };
+
+/// "1 frame", "2 frames".
+std::string countOf(size_t count, const char* what);
 
 /// Median and 99th percentile of milliseconds; nearest rank.
 struct TimeSummary {

@@ -41,17 +41,20 @@ bool holds(const CvarList& cvars, const std::string& name) {
                        [&](const auto& cvar) { return equalsIgnoringCase(cvar.first, name); });
 }
 
-void setSize(PictureSize& size, const std::string& text) {
+int parseFrames(const std::string& text) {
+    int frames = 0;
     char rest = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 || size.width < 1 ||
-        size.height < 1)
-        throw UsageError("--axis size: '" + text + "' is no picture size; write WIDTHxHEIGHT, such as 320x240");
+    if (std::sscanf(text.c_str(), "%d%c", &frames, &rest) == 1 && frames > 0) return frames;
+    throw UsageError("'" + text + "' is no number of frames; write 1 or more");
 }
 
-void setFrames(int& frames, const std::string& text) {
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%d%c", &frames, &rest) != 1 || frames < 1)
-        throw UsageError("--axis frames: '" + text + "' is no number of frames; write 1 or more");
+void setValue(TradePoint& point, const std::string& axis, const std::string& value) {
+    if (axis == kSizeAxis)
+        point.size = parseSize(value);
+    else if (axis == kFramesAxis)
+        point.frames = parseFrames(value);
+    else
+        point.cvars[axis] = value;
 }
 
 /// The value's words, for the settings that have some.
@@ -82,6 +85,9 @@ TradeAxis parseAxis(const std::string& text) {
     const bool hasEmpty = std::find(axis.values.begin(), axis.values.end(), "") != axis.values.end();
     if (axis.name.empty() || axis.values.empty() || hasEmpty)
         throw UsageError("'" + text + "' names no values; write CVAR=V1,V2,... or size=160x120,320x240");
+    TradePoint trial;
+    for (const std::string& value : axis.values)
+        setValue(trial, axis.name, value);
     return axis;
 }
 
@@ -115,12 +121,7 @@ std::vector<TradePoint> crossAxes(std::span<const TradeAxis> axes, const Picture
         for (const TradePoint& point : points)
             for (const std::string& value : axis.values) {
                 crossed.push_back(point);
-                if (axis.name == kSizeAxis)
-                    setSize(crossed.back().size, value);
-                else if (axis.name == kFramesAxis)
-                    setFrames(crossed.back().frames, value);
-                else
-                    crossed.back().cvars[axis.name] = value;
+                setValue(crossed.back(), axis.name, value);
             }
         points = std::move(crossed);
     }

@@ -153,6 +153,7 @@ TradeFile::TradeFile(const fs::path& path)
 }
 
 void TradeFile::readExisting() {
+    if (!fs::is_regular_file(m_path)) return; // /dev/stdout
     const std::vector<std::byte> bytes = readFileBytes(m_path);
     const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     size_t number = 0;

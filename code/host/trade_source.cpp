@@ -150,7 +150,9 @@ std::vector<std::string> expandPlace(const std::string& place) {
     unsigned first = 0, last = 0;
     char rest = 0;
     if (std::sscanf(place.c_str(), "spawn:%u..%u%c", &first, &last, &rest) != 2) return {place};
-    if (last < first) throw UsageError("--at " + place + ": the last spawn point comes before the first");
+    if (last < first) throw UsageError("'" + place + "': the last spawn point comes before the first");
+    constexpr unsigned kMost = 1u << 16; // more than the engine takes entities of all kinds
+    if (last - first >= kMost) throw UsageError("'" + place + "': no map has so many spawn points");
     std::vector<std::string> places;
     for (unsigned i = first; i <= last; ++i)
         places.push_back(formatText("spawn:%u", i));

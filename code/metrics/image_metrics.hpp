@@ -5,6 +5,8 @@
 
 namespace q3rt {
 
+/// Pixels a side of a window, and the least that a picture must have.
+inline constexpr int kSsimWindow = 11;
 /// Structural similarity (Wang, Bovik, Sheikh, Simoncelli: Image Quality Assessment, 2004, equation 13) on luma
 /// (0.299 R + 0.587 G + 0.114 B, range 0..255): 11 x 11 Gaussian window, sigma 1.5 pixels, K1 0.01, K2 0.03, windows
 /// that lie wholly inside the picture. Every value in [-1, 1]; 1 = equal. Wants 11 x 11 pixels or more.

@@ -12,14 +12,13 @@ namespace q3rt {
 
 namespace {
 
-constexpr int kWindow = 11;
 constexpr double kSigmaPixels = 1.5, kPeak = 255.0;
 constexpr double kC1 = (0.01 * kPeak) * (0.01 * kPeak), kC2 = (0.03 * kPeak) * (0.03 * kPeak);
 
-std::array<double, kWindow> makeWindow() {
-    std::array<double, kWindow> window{};
-    for (int i = 0; i < kWindow; ++i) {
-        const double x = (i - kWindow / 2) / kSigmaPixels;
+std::array<double, kSsimWindow> makeWindow() {
+    std::array<double, kSsimWindow> window{};
+    for (int i = 0; i < kSsimWindow; ++i) {
+        const double x = (i - kSsimWindow / 2) / kSigmaPixels;
         window[static_cast<size_t>(i)] = std::exp(-0.5 * x * x);
     }
     const double sum = std::accumulate(window.begin(), window.end(), 0.0);
@@ -37,7 +36,7 @@ Plane2d lumaOf(const MetricImage& image) {
 }
 
 /// Windowed mean of a * b.
-Plane2d meanOfProduct(const Plane2d& a, const Plane2d& b, const std::array<double, kWindow>& window) {
+Plane2d meanOfProduct(const Plane2d& a, const Plane2d& b, const std::array<double, kSsimWindow>& window) {
     Plane2d product = a;
     for (size_t i = 0; i < product.values.size(); ++i)
         product.values[i] *= b.values[i];
@@ -48,9 +47,9 @@ Plane2d meanOfProduct(const Plane2d& a, const Plane2d& b, const std::array<doubl
 
 MetricMap computeSsim(const MetricImage& reference, const MetricImage& test) {
     requireSameSize(reference, test);
-    if (reference.width < kWindow || reference.height < kWindow)
-        throw UsageError(formatText("SSIM wants %d x %d pixels or more, these pictures have %d x %d", kWindow, kWindow,
-                                    reference.width, reference.height));
+    if (reference.width < kSsimWindow || reference.height < kSsimWindow)
+        throw UsageError(formatText("SSIM wants %d x %d pixels or more, these pictures have %d x %d", kSsimWindow,
+                                    kSsimWindow, reference.width, reference.height));
     const auto window = makeWindow();
     const Plane2d x = lumaOf(reference), y = lumaOf(test);
     const Plane2d meanX = convolveSeparable(x, window, window, Border::Valid);

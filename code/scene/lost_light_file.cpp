@@ -30,11 +30,11 @@ std::optional<LostLights> readLostLights(FileSource& files, const World& world) 
         // A file written by hand need not name its bake.
         if (lights.lightmap.empty() || lights.lightmap == lightmapFingerprint(world.bsp)) return lights;
         logLine(LogLevel::Warning,
-                "%s is of another bake of the map and is left out; 'q3rt relight --map %s' makes a "
+                "rt_lostLights: %s is of another bake of the map and is left out; 'q3rt relight --map %s' makes a "
                 "new one",
                 name.c_str(), map.c_str());
     } catch (const ContentError& damage) {
-        logLine(LogLevel::Warning, "%s", damage.what());
+        logLine(LogLevel::Warning, "rt_lostLights: %s", damage.what());
     }
     return std::nullopt;
 }

@@ -2,7 +2,9 @@
 // left half-written. And `q3rt doctor` finds it beforehand.
 
 #include <algorithm>
+#include <cstdlib>
 #include <sstream>
+#include <sys/wait.h>
 
 #include <gtest/gtest.h>
 
@@ -165,7 +167,6 @@ const std::vector<Situation> kSituations = {
      nullptr},
     {"no_such_place",
      {"view --basepath IN/good --map room_square_light --renderer null --at spawn:99 --out OUT/a.png",
-      "view --basepath IN/good --map room_square_light --renderer null --at nowhere --out OUT/a.png",
       "trade --basepath IN/good --map room_square_light --smoke --at spawn:99 --out OUT/a.jsonl"},
      "--at",
      "",
@@ -178,6 +179,10 @@ const std::vector<Situation> kSituations = {
       "view --map a --out a.gif",
       "view --map a --out a.png --size 0x0",
       "view --map a --out a.png --frames 0",
+      "view --map a --out a.png --time 9999999999",
+      "view --map a --out a.png --fov nan",
+      "view --map a --out a.png --fov 90,5",
+      "view --map a --out a.png --at nowhere",
       "view --map a --out a.png --set novalue",
       "replay",
       "replay a.q3t --count 0",
@@ -191,11 +196,19 @@ const std::vector<Situation> kSituations = {
       "play --demo a --relight",
       "play --frames 0",
       "play --every 0",
+      "play --map a --timedemo",
       "compare a.png",
       "compare a.png b.png --ppd 0",
+      "compare a.png b.png --ppd nan",
+      "compare a.png b.png --heatmap c.jpg",
       "trade --out a.jsonl",
       "trade a.q3t",
       "trade --map a --out a.jsonl --axis nonsense",
+      "trade --map a --out a.jsonl --axis size=0x1",
+      "trade --map a --out a.jsonl --at spawn:0..4000000000",
+      "trade --map a --out a.jsonl --frames 1",
+      "trade a.q3t --out a.jsonl --at spawn:0",
+      "trade --map a --out a.jsonl --clock sun",
       "info",
       "info --map a --all",
       "info --map a --points 1",
@@ -248,6 +261,28 @@ TEST_P(BadInput, GetsOneLineAndLeavesNothing) {
         EXPECT_EQ(result.errors.find("q3rt: "), 0u) << result.errors;
         EXPECT_FALSE(fs::exists(out)) << fs::directory_iterator(out)->path();
     }
+}
+
+TEST(BadArguments, AreAnsweredWithTheCommandsOwnHelp) {
+    EXPECT_NE(runQ3rt({"view"}).errors.find("see 'q3rt view --help'"), std::string::npos);
+    EXPECT_NE(runQ3rt({"nosuch"}).errors.find("'nosuch' is no command"), std::string::npos);
+    for (const char* command :
+         {"play", "record", "replay", "view", "compare", "trade", "info", "doctor", "relight", "subset"})
+        EXPECT_NE(runQ3rt({command, "--help"}).output.find("Example: q3rt " + std::string(command)), std::string::npos)
+            << command;
+}
+
+TEST(FullOutput, IsAFailure) {
+    const fs::path in = makeScratchFolder("full_output");
+    makeBadInput(in);
+    const std::string picture = "'" + (in / "good.png").string() + "'", errors = (in / "errors").string();
+    const std::string command =
+        Q3RT_BUILD_DIR "/q3rt compare " + picture + " " + picture + " >/dev/full 2>'" + errors + "'";
+    const int status = std::system(command.c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 1);
+    const std::vector<std::byte> text = readFile(errors);
+    const std::string said(reinterpret_cast<const char*>(text.data()), text.size());
+    EXPECT_EQ(said.find("q3rt: standard output can't be written: No space left"), 0u) << said;
 }
 
 class DoctorFinds : public BadInput {};
@@ -311,6 +346,9 @@ TEST(BadContent, IsAWarningAndThePictureIsDrawn) {
     EXPECT_NE(result.errors.find("grey.tga"), std::string::npos) << result.errors;
     EXPECT_NE(result.errors.find("zz.shader"), std::string::npos) << result.errors;
     EXPECT_TRUE(fs::exists(out));
+    const ProgramResult brief = runQ3rt({"view", "--basepath", (in / "spoiled_content").string(), "--map", kBadMap,
+                                         "--renderer", "vk", "--size", "64x48", "--out", out.string()});
+    EXPECT_TRUE(brief.saysInOneLine("more: --verbose shows them)")) << brief.errors;
 }
 
 } // namespace

@@ -79,8 +79,8 @@ TEST(TradePoints, BadAxesAreRefused) {
     EXPECT_THROW(crossAxes(twice, kSize, {}), UsageError);
     const std::vector<TradeAxis> fixed = {parseAxis("a=1")};
     EXPECT_THROW(crossAxes(fixed, kSize, {{"a", "1"}}), UsageError);
-    const std::vector<TradeAxis> sizes = {parseAxis("size=big")};
-    EXPECT_THROW(crossAxes(sizes, kSize, {}), UsageError);
+    for (const char* text : {"size=big", "size=8x8,0x1", "frames=0", "frames=few"})
+        EXPECT_THROW(parseAxis(text), UsageError) << text;
 }
 
 // 24 points in 1 to 30 parts.

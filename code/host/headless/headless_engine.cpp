@@ -110,6 +110,11 @@ void HeadlessEngine::countImport() {
     raiseError(Q3_ERR_DROP);
 }
 
+std::string HeadlessEngine::unshownWarnings() const {
+    if (m_unshownCount < 2) return m_firstUnshown;
+    return m_firstUnshown + formatText(" (and %zu more: --verbose shows them)", m_unshownCount - 1);
+}
+
 void HeadlessEngine::raiseErrorAtImport(int number) {
     m_importCount = 0;
     m_errorAtImport = number;

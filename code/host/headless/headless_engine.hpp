@@ -40,6 +40,8 @@ class HeadlessEngine {
     CvarTable cvars;
     int clockMs = 0;           ///< what Milliseconds answers
     bool showsMessages = true; ///< false: only errors, and warnings of settings, reach the log
+    /// The warnings that didn't reach it: the first, and how many more there were. Empty: none.
+    std::string unshownWarnings() const;
 
     /// Throws UsageError if the file is no renderer module.
     void loadModule(const std::filesystem::path& path);
@@ -103,6 +105,8 @@ class HeadlessEngine {
     int m_errorCode = 0;
     int m_errorDepth = 0;
     int m_importCount = 0, m_errorAtImport = 0;
+    std::string m_firstUnshown;
+    size_t m_unshownCount = 0;
     std::vector<void*> m_lentFiles; ///< a stack: given back in reverse order
     std::set<char**> m_lentLists;
     std::map<std::string, void (*)()> m_commands;

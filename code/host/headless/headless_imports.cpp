@@ -45,9 +45,10 @@ void HeadlessImports::print(int level, const char* format, ...) {
     va_end(arguments);
     const bool shown =
         theEngine->showsMessages || level == Q3_PRINT_ERROR || (level == Q3_PRINT_WARNING && concernsSetting(text));
-    if (!shown) return;
     const size_t length = std::strlen(text);
     if (length > 0 && text[length - 1] == '\n') text[length - 1] = 0;
+    if (!shown && level == Q3_PRINT_WARNING && theEngine->m_unshownCount++ == 0) theEngine->m_firstUnshown = text;
+    if (!shown) return;
     const LogLevel levels[] = {LogLevel::Info, LogLevel::Developer, LogLevel::Warning, LogLevel::Error};
     logLine(level >= 0 && level < 4 ? levels[level] : LogLevel::Info, "%s", text);
 }
