@@ -52,7 +52,9 @@ DrawnLight plainCandidate(RtLightRow row, uint bits, uint i)
 // A light that is not a triangle.
 RtLight plainRound(uint light)
 {
-    return light < rowLightCount() ? pointLight(light) : LightTable(rtFrame.lights).at[light - rowLightCount()];
+    if (light < rowLightCount())
+        return pointLight(light);
+    return LightTable(rtFrame.lights).at[light - rowLightCount()];
 }
 
 bool plainMayShine(uint light, ShadingPoint point)
