@@ -53,13 +53,15 @@ void addSizeOption(CLI::App& command, PictureSize& size) {
 }
 
 PictureSize parseSize(const std::string& text) {
-    constexpr int kMost = 16384; // pixels a side that any Vulkan device of ours draws
+    constexpr int kLeast = 4, kMost = 16384; // pixels a side: of a window of the engine's, and of any device of ours
+    const auto isSide = [](int pixels) { return pixels >= kLeast && pixels <= kMost; };
     PictureSize size;
     char rest = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) == 2 && size.width > 0 &&
-        size.height > 0 && size.width <= kMost && size.height <= kMost)
+    if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) == 2 && isSide(size.width) &&
+        isSide(size.height))
         return size;
-    throw UsageError("'" + text + "' is no picture size: write WIDTHxHEIGHT in pixels, such as 640x480");
+    throw UsageError(formatText("'%s' is no picture size: write WIDTHxHEIGHT, such as 640x480, from %d to %d pixels",
+                                text.c_str(), kLeast, kMost));
 }
 
 void addSetOption(CLI::App& command, CvarList& cvars) {

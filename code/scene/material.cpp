@@ -103,8 +103,9 @@ Material MaterialLibrary::create(std::string_view name, const std::string& key, 
     }
     const TextureFlags flags{mipRaw, mipRaw, !mipRaw};
     if (const auto image = m_textures.load(name, flags)) return compileImage(withoutExtension(name), *image, context);
-    logLineOnce(LogLevel::Warning, "no shader and no image, default drawn: %.*s", static_cast<int>(name.size()),
-                name.data());
+    // Games ask for pictures that no archive holds, OpenArena's for 89 crosshairs: their answer is the handle 0.
+    const LogLevel level = lightmap == lightmapContext::k2D ? LogLevel::Developer : LogLevel::Warning;
+    logLineOnce(level, "no shader and no image, default drawn: %.*s", static_cast<int>(name.size()), name.data());
     Material missing;
     missing.name = withoutExtension(name);
     missing.lightmap = lightmap;

@@ -178,6 +178,7 @@ const std::vector<Situation> kSituations = {
       "view --map a",
       "view --map a --out a.gif",
       "view --map a --out a.png --size 0x0",
+      "view --map a --out a.png --size 3x4097",
       "view --map a --out a.png --frames 0",
       "view --map a --out a.png --time 9999999999",
       "view --map a --out a.png --fov nan",
