@@ -4,11 +4,13 @@
 # the share of the picture, in percent, that renderer_vk shows lit (16 and more) and renderer_rt black (below 2), with
 # grain averaged away. BEFORE=0 leaves the first out. With PICTURES=DIR also before, after and opengl1 side by side,
 # DIR/lost_MAP_SPAWN.jpg. With TABLE=FILE the lines are added to that file, and views that it has are not drawn again:
-# work that was broken off goes on. Needs ImageMagick and Xvfb.
+# work that was broken off goes on. SETTINGS: more arguments for renderer_rt ("--set rt_backend=compute" is the quickest
+# on a software driver). Needs ImageMagick and Xvfb.
 # All maps: tests/bench/lost_light_views.sh $(basename -s .ent renderer_rt/lights/baseoa/*.ent)
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/../.."
 program="${Q3RT:-build/q3rt}" size="${SIZE:-160x120}" frames="${FRAMES:-8}" table="${TABLE:-/dev/null}"
+read -r -a settings <<<"${SETTINGS:-}"
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 
@@ -35,10 +37,10 @@ for which in "$@"; do
     draw vk --renderer vk || continue # fewer spawn points
     before="-"
     if [ "${BEFORE:-1}" != 0 ]; then
-      draw before --renderer rt --frames "$frames" --set rt_lostLights=0
+      draw before --renderer rt --frames "$frames" --set rt_lostLights=0 "${settings[@]}"
       before="$(printf %.1f "$(luminance before)")"
     fi
-    draw after --renderer rt --frames "$frames"
+    draw after --renderer rt --frames "$frames" "${settings[@]}"
     printf '%s %s %s %.1f %.1f %.1f\n' "$map" "$spawn" "$before" "$(luminance after)" "$(luminance vk)" \
       "$(black_share)" | tee -a "$table"
     [ -n "${PICTURES:-}" ] || continue
