@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "base/error.hpp"
 #include "host/census.hpp"
 #include "host/commands.hpp"
 #include "host/luxel_table.hpp"
@@ -104,10 +105,19 @@ void runInfo(const InfoArguments& arguments) {
     }
     const std::vector<std::string> maps = files->list("maps", ".bsp");
     Progress progress("map", maps.size());
+    size_t failed = 0;
     for (size_t i = 0; i < maps.size(); ++i) {
-        printMap(*files, maps[i].substr(0, maps[i].size() - 4), arguments);
+        try {
+            printMap(*files, maps[i].substr(0, maps[i].size() - 4), arguments);
+        } catch (const ContentError& error) {
+            std::fprintf(stderr, "q3rt: %s\n", error.what());
+            ++failed;
+        }
         progress.advance(i + 1);
     }
+    if (failed > 0)
+        throw ContentError(
+            formatText("%zu of %zu maps can't be counted; the lines above say why", failed, maps.size()));
 }
 
 } // namespace

@@ -77,6 +77,17 @@ TEST(Info, BadInputIsOneLine) {
     EXPECT_EQ(runQ3rt({"info"}).exitCode, 2);
 }
 
+TEST(Info, OneDamagedMapDoesNotHideTheOthers) {
+    const std::filesystem::path base = makeGameFolder();
+    std::filesystem::create_directories(base / "mygame" / "maps");
+    std::ofstream(base / "mygame" / "maps" / "broken.bsp") << "IBSP";
+    const ProgramResult all = runQ3rt({"info", "--all", "--basepath", base.string(), "--game", "mygame", "--json"});
+    EXPECT_EQ(all.exitCode, 1);
+    EXPECT_NE(all.output.find(squareLightRoom::kName), std::string::npos) << all.output;
+    EXPECT_NE(all.errors.find("maps/broken.bsp: ends too early"), std::string::npos) << all.errors;
+    EXPECT_NE(all.errors.find("1 of 3 maps can't be counted"), std::string::npos) << all.errors;
+}
+
 TEST(Info, CountsAMapOfTheGame) {
     Q3RT_OPEN_GAME_DATA_OR_SKIP(files);
     const ProgramResult result = runQ3rt({"info", "--map", "oa_shouse", "--json"});
