@@ -19,6 +19,8 @@
 #include "rays_push.h"
 #include "spirv/rays_any.hpp"
 #include "spirv/rays_closest.hpp"
+#include "spirv/roped_any.hpp"
+#include "spirv/roped_closest.hpp"
 #include "support/game_data.hpp"
 
 namespace {
@@ -66,14 +68,36 @@ Buffer upload(Device& device, const std::vector<T>& items) {
     return local;
 }
 
+/// Boxes below a node, each before those that it holds.
+void appendRoped(const Bvh& bvh, uint32_t index, std::vector<RopedBox>& out) {
+    const BvhNode& node = bvh.nodes[index];
+    for (uint32_t slot = 0; slot < kBvhWidth; ++slot) {
+        const Bounds box = childBounds(node, slot);
+        if (box.empty()) continue;
+        const size_t at = out.size();
+        const uint32_t child = node.child[slot];
+        const bool leaf = (child & kBvhLeafBit) != 0;
+        out.push_back({box.mins, 0, box.maxs, leaf ? child : 0});
+        if (!leaf) appendRoped(bvh, child, out);
+        out[at].skip = static_cast<uint32_t>(out.size());
+    }
+}
+
 /// Our own tree, its addresses those of the device.
 struct DeviceTree {
-    Buffer nodes, triangles, sceneNodes, instances;
+    Buffer nodes, triangles, sceneNodes, instances, ropedBoxes;
+    uint32_t boxCount = 0;
+    float reach = 0;
 
     DeviceTree(Device& device, const Bvh& bvh, const std::vector<vec3>& positions) {
         nodes = upload(device, bvh.nodes);
         triangles = upload(device, leafTriangles(bvh, positions, {}));
         sceneNodes = upload(device, buildSah({&bvh.bounds, 1}, {.maxLeafItems = 1}).nodes);
+        std::vector<RopedBox> boxes;
+        appendRoped(bvh, 0, boxes);
+        ropedBoxes = upload(device, boxes);
+        boxCount = static_cast<uint32_t>(boxes.size());
+        reach = bvh.nodes[0].reach;
         instances = upload(device, std::vector{instanceInPlace(nodes.address(), triangles.address(), 0xff)});
     }
 };
@@ -106,18 +130,22 @@ std::vector<BenchRay> shadowRays(const WorldTriangles& world, const std::vector<
     return shadows;
 }
 
+enum class Traversal { Stack, Roped };
+
 /// Traces by the device; `hits`: how many of the rays hit.
-double deviceSeconds(Device& device, const ShaderStage& shader, const DeviceTree& tree,
+double deviceSeconds(Device& device, const ShaderStage& shader, const DeviceTree& tree, Traversal traversal,
                      const std::vector<BenchRay>& rays, glm::uvec2 size, float tMax, size_t& hits) {
     const Buffer input = upload(device, rays);
     const Buffer results(device, {.size = rays.size() * sizeof(float), .usage = kUsage});
     const RaysPush push{.rays = input.address(),
                         .results = results.address(),
-                        .treeNodes = tree.sceneNodes.address(),
+                        .treeNodes = (traversal == Traversal::Roped ? tree.ropedBoxes : tree.sceneNodes).address(),
                         .treeInstances = tree.instances.address(),
                         .width = size.x,
                         .height = size.y,
-                        .tMax = tMax};
+                        .tMax = tMax,
+                        .boxCount = tree.boxCount,
+                        .reach = tree.reach};
     const ComputePipeline pipeline(device, {.name = "rays", .shader = shader, .interface = {{}, sizeof(RaysPush)}});
     constexpr int kDispatches = 8; // in a row, so that their submission does not count on a GPU
     const auto trace = [&] {
@@ -200,13 +228,14 @@ void compare(Device& device, FileSource& files, const char* map, glm::uvec2 size
     // As renderer_rt/backend.cpp has it.
     const std::vector<uint32_t> traversal{device.capabilities().software ? 0u : 1u};
     size_t hits[2];
-    double ours = deviceSeconds(device, {shaders::rays_closest, traversal}, tree, rays, size, world.farQu(), hits[0]);
+    double ours = deviceSeconds(device, {shaders::rays_closest, traversal}, tree, Traversal::Stack, rays, size,
+                                world.farQu(), hits[0]);
     double reference = embreeSeconds(rays, hits[1], [&](const BenchRay& ray) {
         return embree.closest(ray.origin, ray.direction, world.farQu()).hit;
     });
     printRow("camera", rays.size(), ours, reference, hits);
     double sum[2] = {ours, reference};
-    ours = deviceSeconds(device, {shaders::rays_any, traversal}, tree, shadows, size, 1, hits[0]);
+    ours = deviceSeconds(device, {shaders::rays_any, traversal}, tree, Traversal::Stack, shadows, size, 1, hits[0]);
     reference = embreeSeconds(shadows, hits[1],
                               [&](const BenchRay& ray) { return embree.occluded(ray.origin, ray.direction, 1); });
     printRow("shadow", rays.size(), ours, reference, hits);
@@ -214,6 +243,12 @@ void compare(Device& device, FileSource& files, const char* map, glm::uvec2 size
                 2e-6 * static_cast<double>(rays.size()) / (sum[0] + ours),
                 2e-6 * static_cast<double>(rays.size()) / (sum[1] + reference), (sum[1] + reference) / (sum[0] + ours),
                 1e3 * (sum[0] + ours));
+    const double roped[2] = {
+        deviceSeconds(device, {shaders::roped_closest, {}}, tree, Traversal::Roped, rays, size, world.farQu(), hits[0]),
+        deviceSeconds(device, {shaders::roped_any, {}}, tree, Traversal::Roped, shadows, size, 1, hits[1])};
+    const double rate = static_cast<double>(rays.size()) * 1e-6;
+    std::printf("by skip links instead of a stack: camera %.2f, shadow %.2f; %zu and %zu hit\n", rate / roped[0],
+                rate / roped[1], hits[0], hits[1]);
 }
 
 } // namespace
