@@ -49,7 +49,7 @@ LightSample sampleTriangleLight(vec3 position, vec3 normal, vec3 corner, vec3 ed
     return result;
 }
 
-// The same, a point uniform by area: a fifth of the work, and noise without bound as the light comes near.
+// The same, a point uniform by area: less work, and noise without bound as the light comes near.
 LightSample sampleTriangleLightByArea(vec3 position, vec3 normal, vec3 corner, vec3 edge1, vec3 edge2, vec3 lightNormal,
                                       float areaQu2, vec3 radiance, bool twoSided, float u, float v)
 {
