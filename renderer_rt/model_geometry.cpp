@@ -61,9 +61,9 @@ void ModelGeometry::fill(ModelPart& part, SurfaceClass surfaceClass, std::span<c
     if (!usesStructures(m_backend)) {
         const TreePart whole{vertices, indices, surfaceClass};
         const TreeData tree = buildTree({&whole, 1}, true);
-        nodesAt = tables.add(std::span<const BvhNode>(tree.nodes));
+        nodesAt = tables.add(std::span<const BvhNode>(tree.bvh.nodes));
         trianglesAt = tables.add(std::span<const BvhTriangle>(tree.triangles));
-        part.tree.bounds = tree.bounds;
+        part.tree.bounds = tree.bvh.bounds;
     }
     part.memory = Buffer(
         m_device,

@@ -80,20 +80,17 @@ TreeData buildTree(std::span<const TreePart> parts, bool lasting) {
     const BvhBuildSettings settings{.reinsert = lasting, .groups = groups};
     Bvh bvh = lasting ? buildSah(boxes, settings) : buildMorton(boxes, settings);
     std::vector<BvhTriangle> triangles = leafTriangles(bvh, positions, labels);
-    return {.nodes = std::move(bvh.nodes),
-            .triangles = std::move(triangles),
-            .bounds = bvh.bounds,
-            .rejectedCount = bvh.rejectedCount};
+    return {std::move(bvh), std::move(triangles)};
 }
 
 size_t StaticTrees::add(std::span<const TreePart> parts) {
     const TreeData built = buildTree(parts, true);
     m_trees.push_back({.nodes = m_nodeList.size() * sizeof(BvhNode),
                        .triangles = m_triangleList.size() * sizeof(BvhTriangle),
-                       .bounds = built.bounds});
-    m_nodeList.insert(m_nodeList.end(), built.nodes.begin(), built.nodes.end());
+                       .bounds = built.bvh.bounds});
+    m_nodeList.insert(m_nodeList.end(), built.bvh.nodes.begin(), built.bvh.nodes.end());
     m_triangleList.insert(m_triangleList.end(), built.triangles.begin(), built.triangles.end());
-    m_rejectedCount += built.rejectedCount;
+    m_rejectedCount += built.bvh.rejectedCount;
     return m_trees.size() - 1;
 }
 
@@ -111,11 +108,10 @@ void StaticTrees::upload(Device& device, Uploader& uploader) {
     m_triangleList = {};
 }
 
-TreeAddress sendMovingTree(GrowingBuffer& stream, std::span<const TreePart> parts) {
-    const TreeData built = buildTree(parts, false);
-    return {.nodes = stream.append(std::span<const BvhNode>(built.nodes), sizeof(BvhNode)).address,
-            .triangles = stream.append(std::span<const BvhTriangle>(built.triangles)).address,
-            .bounds = built.bounds};
+TreeAddress sendTree(GrowingBuffer& stream, const TreeData& tree) {
+    return {.nodes = stream.append(std::span<const BvhNode>(tree.bvh.nodes), sizeof(BvhNode)).address,
+            .triangles = stream.append(std::span<const BvhTriangle>(tree.triangles)).address,
+            .bounds = tree.bvh.bounds};
 }
 
 SceneTreeData buildSceneTree(std::span<const TreeInstance> instances) {

@@ -1,7 +1,7 @@
 #pragma once
 // The back end `compute`: our own trees in place of the driver's structures. Trees of the map and its inline models are
-// built once; what moves gets a quick tree each frame; a small tree over all instances is built each frame. One tree
-// holds everything that moves as one, of all surface classes: its parts stand for the driver's structures.
+// built once; what moves has moving_trees.hpp; a small tree over all instances is built each frame. One tree holds
+// everything that moves as one, of all surface classes: its parts stand for the driver's structures.
 
 #include <array>
 #include <vector>
@@ -22,12 +22,10 @@ struct TreeAddress {
     Bounds bounds; ///< model space
 };
 
-/// A tree on the CPU.
+/// A tree on the CPU; bounds in model space.
 struct TreeData {
-    std::vector<BvhNode> nodes;
-    std::vector<BvhTriangle> triangles;
-    Bounds bounds;              ///< model space
-    uint32_t rejectedCount = 0; ///< triangles that are not finite or too far away
+    Bvh bvh;
+    std::vector<BvhTriangle> triangles; ///< in leaf order
 };
 
 /// Triangles of one class: what the driver's back ends have a structure for. Triangle i of a part keeps that number.
@@ -38,6 +36,9 @@ struct TreePart {
 };
 /// A lasting tree is better and takes longer. At most kBvhMostParts parts.
 TreeData buildTree(std::span<const TreePart> parts, bool lasting);
+
+/// A tree for this frame only.
+TreeAddress sendTree(GrowingBuffer& stream, const TreeData& tree);
 
 /// Trees that stay: gathered, then uploaded at once.
 class StaticTrees {
@@ -56,9 +57,6 @@ class StaticTrees {
     uint32_t m_rejectedCount = 0;
     Buffer m_nodes, m_triangles;
 };
-
-/// A tree for this frame only.
-TreeAddress sendMovingTree(GrowingBuffer& stream, std::span<const TreePart> parts);
 
 /// One placed tree.
 struct TreeInstance {

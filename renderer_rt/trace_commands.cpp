@@ -112,8 +112,9 @@ void TraceRenderer::printStats() {
     for (const TimerRow& row : context().ring().timers().results())
         line += formatText(" %s %.2f ms", row.name.c_str(), row.ms);
     for (size_t i = 0; i < kStructureClassCount; ++i)
-        line += formatText("%s %s %u surfaces %u triangles %u builds", i == 0 ? ";" : ",", kStructureClassNames[i],
-                           m_classCounts[i].surfaces, m_classCounts[i].triangles, m_classCounts[i].builds);
+        line += formatText("%s %s %u surfaces %u triangles %u builds %u updates", i == 0 ? ";" : ",",
+                           kStructureClassNames[i], m_classCounts[i].surfaces, m_classCounts[i].triangles,
+                           m_classCounts[i].builds, m_classCounts[i].updates);
     engine().print(LogLevel::Info, line);
 }
 

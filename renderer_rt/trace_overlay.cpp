@@ -85,11 +85,13 @@ std::vector<std::string> TraceRenderer::performanceLines() {
         m_scene->hasWorld() ? m_scene->lights()->triangleCount() + m_scene->lights()->others().size() : 0;
     const std::string lights = m_settings.rt_numRandomDL == 0 ? "all" : formatText("%d", m_settings.rt_numRandomDL);
     lines.push_back(formatText("lights a pixel: %s of %zu", lights.c_str(), lightCount));
-    uint32_t builds = 0;
-    for (const ClassCount& count : m_classCounts)
+    uint32_t builds = 0, updates = 0;
+    for (const ClassCount& count : m_classCounts) {
         builds += count.builds;
-    lines.push_back(
-        formatText("structures: %u, built: %u, moving triangles: %u", m_instanceCount, builds, m_movingTriangleCount));
+        updates += count.updates;
+    }
+    lines.push_back(formatText("structures: %u, built: %u, updated: %u, moving triangles: %u", m_instanceCount, builds,
+                               updates, m_movingTriangleCount));
     const MemoryUse use = context().device().memory().measureUse();
     constexpr double kMiB = 1 << 20;
     lines.push_back(formatText("memory: %.0f of %.0f MiB", static_cast<double>(use.usedBytes) / kMiB,

@@ -147,9 +147,9 @@ std::string TraceRenderer::extraStats() const {
         formatText(",\"instances\":%u,\"moving_triangles\":%u,\"lights\":%zu,\"classes\":{", m_instanceCount,
                    m_movingTriangleCount, m_scene && m_scene->hasWorld() ? m_scene->lights()->triangleCount() : 0);
     for (size_t i = 0; i < kStructureClassCount; ++i)
-        text += formatText("%s\"%s\":{\"surfaces\":%u,\"triangles\":%u,\"builds\":%u}", i == 0 ? "" : ",",
-                           kStructureClassNames[i], m_classCounts[i].surfaces, m_classCounts[i].triangles,
-                           m_classCounts[i].builds);
+        text += formatText("%s\"%s\":{\"surfaces\":%u,\"triangles\":%u,\"builds\":%u,\"updates\":%u}",
+                           i == 0 ? "" : ",", kStructureClassNames[i], m_classCounts[i].surfaces,
+                           m_classCounts[i].triangles, m_classCounts[i].builds, m_classCounts[i].updates);
     text += "}";
     if (m_settings.rt_targetMs > 0) text += formatText(",\"level\":%zu", m_pace.level());
     if (m_scene && m_scene->hasWorld()) text += formatText(",\"other_lights\":%zu", m_scene->lights()->others().size());

@@ -59,6 +59,7 @@ void TracedScene::dropContent() {
     m_statics.reset();
     m_lights.reset();
     m_models.reset();
+    m_movingTrees.clear();
     m_world = nullptr;
     m_tables.clear();
 }
@@ -66,6 +67,7 @@ void TracedScene::dropContent() {
 void TracedScene::beginFrame() {
     const uint32_t slot = m_context.ring().slot();
     m_structures.beginFrame(slot);
+    m_movingTrees.beginFrame();
     m_stream.beginFrame(slot);
     if (m_stages) m_stages->beginFrame();
 }
@@ -113,6 +115,7 @@ void TracedScene::resolveDynamic(const ViewGeometry& geometry, TracedView& view)
         AccelerationStructure& structure = m_structures.takeBottom(triangles);
         m_dynamicStructures.push_back(&structure);
         view.builds.push_back({&structure, triangles});
+        ++view.counts[static_cast<size_t>(part.structureClass)].builds;
     }
     for (size_t i = 0; i < m_tables.instances.size(); ++i) {
         if (m_tables.sources[i].dynamicPart < 0) continue;
@@ -166,6 +169,33 @@ TreePart TracedScene::dynamicTreePart(const ViewGeometry& geometry, int number) 
             std::span(m_tables.indices).subspan(part.firstIndex, size_t{3} * part.triangleCount), part.surfaceClass};
 }
 
+size_t TracedScene::makeMovingTree(const ViewGeometry& geometry, size_t first, TracedView& view,
+                                   TreeInstance& instance) {
+    const std::vector<ViewTables::Source>& sources = m_tables.sources;
+    m_treeParts.clear();
+    m_treeKey.clear();
+    bool known = true;
+    for (size_t i = first; i < sources.size() && m_treeParts.size() < kBvhMostParts; ++i) {
+        if (sources[i].dynamicPart < 0 || sources[i].entity != sources[first].entity) break;
+        instance.masks[m_treeParts.size()] = sources[i].mask;
+        m_treeParts.push_back(dynamicTreePart(geometry, sources[i].dynamicPart));
+        m_treeKey.push_back(static_cast<uint64_t>(sources[i].surfaceClass));
+        for (const uint32_t s : m_tables.parts[static_cast<size_t>(sources[i].dynamicPart)].surfaces) {
+            m_treeKey.push_back(sourceKey(geometry.surfaces[s]));
+            known &= m_treeKey.back() != 0;
+        }
+    }
+    if (!known) m_treeKey.clear();
+    const MovingTrees::Made made = m_movingTrees.make(m_treeKey, m_treeParts);
+    instance.tree = sendTree(m_stream, made.tree);
+    for (size_t i = first; i < first + m_treeParts.size(); ++i) {
+        const DynamicPart& part = m_tables.parts[static_cast<size_t>(sources[i].dynamicPart)];
+        ClassCount& of = view.counts[static_cast<size_t>(part.structureClass)];
+        ++(made.built ? of.builds : of.updates);
+    }
+    return m_treeParts.size();
+}
+
 void TracedScene::makeTrees(const ViewGeometry& geometry, TracedView& view) {
     m_treeInstances.clear();
     const std::vector<ViewTables::Source>& sources = m_tables.sources;
@@ -189,14 +219,7 @@ void TracedScene::makeTrees(const ViewGeometry& geometry, TracedView& view) {
                  ++part)
                 instance.masks[part] = sources[i + part].mask;
         } else {
-            std::vector<TreePart> parts;
-            for (; i + part < sources.size() && sources[i + part].dynamicPart >= 0 &&
-                   sources[i + part].entity == first.entity;
-                 ++part) {
-                parts.push_back(dynamicTreePart(geometry, sources[i + part].dynamicPart));
-                instance.masks[part] = sources[i + part].mask;
-            }
-            instance.tree = sendMovingTree(m_stream, parts);
+            part = makeMovingTree(geometry, i, view, instance);
         }
         m_treeInstances.push_back(instance);
         i += part;
@@ -211,8 +234,8 @@ TracedView TracedScene::prepare(const ViewGeometry& geometry, std::span<const Sc
                                 const PortalScene& portals) {
     TracedView view;
     m_builder->build(m_world, m_statics.get(), geometry, portals, *m_models, m_tables);
-    resolveDynamic(geometry, view);
     view.counts = m_tables.counts;
+    resolveDynamic(geometry, view);
     for (ModelPart* part : m_models->takeNew()) {
         ++view.counts[static_cast<size_t>(StructureClass::StaticEntity)].builds;
         if (usesStructures(m_backend)) view.builds.push_back({&part->structure, part->geometry});

@@ -5,6 +5,7 @@
 
 #include "gpu/growing_buffer.hpp"
 #include "renderer_rt/frame_structures.hpp"
+#include "renderer_rt/moving_trees.hpp"
 #include "renderer_rt/traced_view.hpp"
 #include "renderer_rt/world_lights.hpp"
 #include "renderer_vk/gpu_context.hpp"
@@ -62,6 +63,8 @@ class TracedScene {
     std::vector<uint32_t> instanceOrder(const ViewGeometry& geometry) const;
     void makeInstances(const ViewGeometry& geometry, TracedView& view);
     TreePart dynamicTreePart(const ViewGeometry& geometry, int number) const;
+    /// Of the run of dynamic parts of one entity that begins at source `first`; returns how many they are.
+    size_t makeMovingTree(const ViewGeometry& geometry, size_t first, TracedView& view, TreeInstance& instance);
     void makeTrees(const ViewGeometry& geometry, TracedView& view);
     void sendFogs(RtFrame& frame);
     void sendLights(std::span<const SceneLight> lights, RtFrame& frame);
@@ -79,6 +82,9 @@ class TracedScene {
     GrowingBuffer m_stream;
     ViewTables m_tables;
     std::vector<AccelerationStructure*> m_dynamicStructures;
+    MovingTrees m_movingTrees;
+    std::vector<TreePart> m_treeParts; ///< work space, as the next two
+    std::vector<uint64_t> m_treeKey;
     std::vector<TreeInstance> m_treeInstances;
 };
 

@@ -221,7 +221,7 @@ void ViewTableBuilder::addDynamicParts(const World* world, const ViewGeometry& g
             count(out, dynamicClass(surface), surface.indexCount / 3);
         }
         appendTriangles(geometry, part, out);
-        ++out.counts[static_cast<size_t>(dynamicClass(geometry.surfaces[part.surfaces[0]]))].builds;
+        part.structureClass = dynamicClass(geometry.surfaces[part.surfaces[0]]);
         instance.vertices = part.firstVertex * sizeof(Vertex);
         instance.indices = part.firstIndex * sizeof(uint32_t);
         instance.surfaceOfTriangle = part.firstIndex / 3 * sizeof(uint32_t);

@@ -17,6 +17,7 @@ namespace q3rt {
 struct DynamicPart {
     uint32_t entity = 0;
     SurfaceClass surfaceClass = SurfaceClass::Solid;
+    StructureClass structureClass = StructureClass::DynamicEntity;
     bool isPoly = false; ///< scene polys are apart: they come and go, the world's deformed surfaces stay
     bool castsShadow = true;
     std::vector<uint32_t> surfaces;             ///< in ViewGeometry::surfaces

@@ -1,7 +1,10 @@
 #include "renderer_rt/view_motion.hpp"
 
-#include <limits>
-#include <map>
+#include <algorithm>
+#include <bit>
+#include <numeric>
+#include <span>
+#include <tuple>
 
 namespace q3rt {
 
@@ -11,10 +14,10 @@ namespace {
 /// 1,000 qu/s) needs a quarter of a second for it, the fastest missile (2,500 qu/s) a tenth.
 constexpr float kCutDistanceQu = 256.0f;
 
-bool isSameKind(const EntityPlace& a, const EntityPlace& b) {
-    return a.moves == b.moves && a.kind == b.kind && a.inlineModel == b.inlineModel && a.model == b.model &&
-           a.skin == b.skin && a.skinNumber == b.skinNumber && a.shader == b.shader && a.flags == b.flags &&
-           a.startSeconds == b.startSeconds;
+/// Equal for things that may be one and the same.
+auto kindOf(const EntityPlace& place) {
+    return std::tuple(place.moves, place.kind, place.inlineModel, place.model, place.skin, place.skinNumber,
+                      place.shader, place.flags, std::bit_cast<uint32_t>(place.startSeconds));
 }
 
 void setRows(vec4 (&rows)[3], const glm::dmat4& matrix) {
@@ -55,20 +58,48 @@ vec3 expectedAnchor(const EntityPlace& place, int elapsedMs) {
     return place.anchor + place.velocity * static_cast<float>(elapsedMs);
 }
 
-/// The nearest of the same kind among those not taken; by number if several are as near.
-std::optional<size_t> findNearest(const EntityPlace& wanted, const vec3& at, const std::vector<EntityPlace>& among,
-                                  const std::vector<vec3>& anchors, const std::vector<bool>& taken) {
+/// Places of one kind, by number, and what has become of them.
+struct KindRun {
+    std::span<const size_t> places;
+    const std::vector<vec3>& anchors; ///< of all kinds, by number
+    std::vector<bool>& taken;         ///< so too
+};
+
+/// The nearest among those not taken; the lowest number if several are as near.
+std::optional<size_t> findNearest(const vec3& at, const KindRun& among) {
     std::optional<size_t> best;
     float bestDistance2 = kCutDistanceQu * kCutDistanceQu;
-    for (size_t i = 0; i < among.size(); ++i) {
-        if (taken[i] || !isSameKind(wanted, among[i])) continue;
-        const vec3 apart = anchors[i] - at;
+    for (const size_t i : among.places) {
+        if (among.taken[i]) continue;
+        const vec3 apart = among.anchors[i] - at;
         const float distance2 = glm::dot(apart, apart);
-        if (distance2 > bestDistance2 || (best && distance2 == bestDistance2)) continue;
+        if (!(distance2 <= bestDistance2) || (best && distance2 == bestDistance2)) continue;
         best = i;
         bestDistance2 = distance2;
     }
     return best;
+}
+
+/// Two that are each other's nearest belong together; then the rest. The first round that finds none is the last.
+void matchKind(const KindRun& now, const KindRun& before, std::vector<std::optional<size_t>>& found) {
+    for (bool again = true; again;) {
+        again = false;
+        for (const size_t i : now.places) {
+            if (now.taken[i]) continue;
+            const std::optional<size_t> there = findNearest(now.anchors[i], before);
+            if (!there || findNearest(before.anchors[*there], now) != i) continue;
+            found[i] = there;
+            now.taken[i] = before.taken[*there] = again = true;
+        }
+    }
+}
+
+/// All numbers, those of a kind together and in order.
+std::vector<size_t> sortByKind(const std::vector<EntityPlace>& places) {
+    std::vector<size_t> order(places.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::ranges::stable_sort(order, {}, [&](size_t i) { return kindOf(places[i]); });
+    return order;
 }
 
 } // namespace
@@ -90,17 +121,13 @@ std::vector<std::optional<size_t>> matchEntities(const std::vector<EntityPlace>&
         anchors.push_back(place.anchor);
     for (const EntityPlace& place : before)
         expected.push_back(expectedAnchor(place, elapsedMs));
-    // Two that are each other's nearest belong together; then the rest. Each round that finds none is the last.
-    for (bool again = true; again;) {
-        again = false;
-        for (size_t i = 0; i < now.size(); ++i) {
-            if (matched[i]) continue;
-            const std::optional<size_t> there = findNearest(now[i], anchors[i], before, expected, taken);
-            if (!there) continue;
-            if (findNearest(before[*there], expected[*there], now, anchors, matched) != i) continue;
-            found[i] = there;
-            matched[i] = taken[*there] = again = true;
-        }
+    const std::vector<size_t> nowOrder = sortByKind(now), beforeOrder = sortByKind(before);
+    for (auto first = nowOrder.begin(); first != nowOrder.end();) {
+        const auto kind = kindOf(now[*first]);
+        const auto end = std::find_if(first, nowOrder.end(), [&](size_t i) { return kindOf(now[i]) != kind; });
+        const auto there = std::ranges::equal_range(beforeOrder, kind, {}, [&](size_t i) { return kindOf(before[i]); });
+        matchKind({{first, end}, anchors, matched}, {{there.begin(), there.end()}, expected, taken}, found);
+        first = end;
     }
     return found;
 }
@@ -125,14 +152,18 @@ void ViewMotion::matchInstances() {
         const EntityPlace& old = m_previous.entities[*entityBefore[e]];
         place.velocity = elapsedMs > 0 ? (place.anchor - old.anchor) / static_cast<float>(elapsedMs) : old.velocity;
     }
-    std::map<std::pair<size_t, uint64_t>, size_t> before;
+    std::vector<std::tuple<size_t, uint64_t, size_t>> before; // entity, key, number
     for (size_t i = 0; i < m_previous.instances.size(); ++i)
-        before.emplace(std::pair(m_previous.instances[i].entity, m_previous.instances[i].key), i);
+        before.emplace_back(m_previous.instances[i].entity, m_previous.instances[i].key, i);
+    std::ranges::sort(before);
     for (size_t i = 0; i < m_current.instances.size(); ++i) {
         const InstancePlace& place = m_current.instances[i];
         if (!entityBefore[place.entity]) continue;
-        const auto found = before.find({*entityBefore[place.entity], place.key});
-        if (found != before.end()) m_previousOf[i] = found->second;
+        const auto found =
+            std::ranges::lower_bound(before, std::tuple(*entityBefore[place.entity], place.key, size_t{0}));
+        if (found == before.end()) continue;
+        const auto [entity, key, number] = *found;
+        if (entity == *entityBefore[place.entity] && key == place.key) m_previousOf[i] = number;
     }
 }
 

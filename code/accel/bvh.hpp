@@ -14,6 +14,7 @@
 // most kBvhMaxDepth long.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -50,9 +51,10 @@ Bvh buildMorton(std::span<const Bounds> items, const BvhBuildSettings& settings 
 /// O(n^2) a level.
 Bvh buildPairing(std::span<const Bounds> items);
 
-/// Recomputes all boxes for moved items, same topology. Returns the surface-area cost now / when it was built: a caller
-/// rebuilds when it has grown too much. `items` is in input order and must have the size the tree was built with.
-float refit(Bvh& bvh, std::span<const Bounds> items);
+/// Recomputes all boxes for triangles that moved, same topology. `triangles` in leaf order (leafTriangles()). Returns
+/// the surface-area cost now / when it was built: a caller rebuilds when it has grown too much. Nothing if a corner is
+/// not finite or beyond kBvhFarthest: only a builder can leave triangles out.
+std::optional<float> refit(Bvh& bvh, std::span<const BvhTriangle> triangles);
 
 /// Expected cost of a random ray that hits the root: sum over children of area(child) / area(root) x (visit or item
 /// tests).

@@ -37,9 +37,10 @@ uint32_t depthOf(const Bvh& bvh) {
     return deepest;
 }
 
-float refit(Bvh& bvh, std::span<const Bounds> items) {
+std::optional<float> refit(Bvh& bvh, std::span<const BvhTriangle> triangles) {
     std::vector<Box4> whole(bvh.nodes.size());
     float cost = 0;
+    Float4 odd{}; // becomes NaN with the first corner that is not finite
     // Children stand behind their parent: backwards, every child is ready.
     for (size_t i = bvh.nodes.size(); i-- > 0;) {
         BvhNode& node = bvh.nodes[i];
@@ -48,9 +49,12 @@ float refit(Bvh& bvh, std::span<const Bounds> items) {
             const uint32_t child = node.child[slot];
             const bool leaf = (child & kBvhLeafBit) != 0;
             if (leaf) {
-                const uint32_t first = leafFirst(child), end = first + leafCount(child);
-                for (uint32_t item = first; item < end; ++item)
-                    box[slot].add(Box4(items[bvh.order[item]]));
+                for (const BvhTriangle& triangle : triangles.subspan(leafFirst(child), leafCount(child)))
+                    for (const vec3& corner : {triangle.corner0, triangle.corner1, triangle.corner2}) {
+                        const Float4 point{corner.x, corner.y, corner.z, 0};
+                        box[slot].addPoint(point);
+                        odd += point - point;
+                    }
             } else {
                 box[slot] = whole[child];
             }
@@ -60,8 +64,9 @@ float refit(Bvh& bvh, std::span<const Bounds> items) {
         setBoxes(node, box);
     }
     bvh.bounds = {};
-    if (!bvh.order.empty()) bvh.bounds = {whole[0].low(), whole[0].high()};
+    if (!triangles.empty()) bvh.bounds = {whole[0].low(), whole[0].high()};
     bvh.nodes[0].reach = reachOf(bvh.bounds);
+    if (odd[0] != 0 || odd[1] != 0 || odd[2] != 0 || bvh.nodes[0].reach > kBvhFarthest) return std::nullopt;
     const float area = whole[0].halfArea();
     return (1.0f + (area > 0 ? cost / area : 0.0f)) / bvh.builtCost;
 }

@@ -140,10 +140,46 @@ TEST(Bvh, ThreadsGiveTheSameTree) {
 
 TEST(Bvh, SahIsNoWorseThanMortonAndRefitKeepsAStillTree) {
     Random random(3);
-    const auto boxes = triangleBounds(randomTriangles(random, 4000, 1000, 10));
+    const std::vector<vec3> positions = randomTriangles(random, 4000, 1000, 10);
+    const auto boxes = triangleBounds(positions);
     Bvh sah = buildSah(boxes);
     EXPECT_LE(surfaceAreaCost(sah), surfaceAreaCost(buildMorton(boxes)));
-    EXPECT_NEAR(refit(sah, boxes), 1.0f, 1e-5f);
+    EXPECT_NEAR(refit(sah, leafTriangles(sah, positions)).value_or(0), 1.0f, 1e-5f);
+}
+
+TEST(Bvh, RefitHasTheBoxesOfTriangleThatMovedAndRefusesOddCorners) {
+    Random random(5);
+    std::vector<vec3> positions = randomTriangles(random, 500, 1000, 10);
+    Bvh bvh = buildSah(triangleBounds(positions));
+    for (vec3& position : positions)
+        position = 2.0f * position + vec3(0, 50, 7);
+    std::vector<BvhTriangle> triangles = leafTriangles(bvh, positions);
+    ASSERT_TRUE(refit(bvh, triangles));
+    const std::vector<Bounds> boxes = triangleBounds(positions);
+    Bounds all;
+    for (const Bounds& box : boxes) {
+        all.add(box.mins);
+        all.add(box.maxs);
+    }
+    EXPECT_EQ(bvh.bounds.mins, all.mins);
+    EXPECT_EQ(bvh.bounds.maxs, all.maxs);
+    for (const BvhNode& node : bvh.nodes)
+        for (uint32_t slot = 0; slot < kBvhWidth; ++slot) {
+            const uint32_t word = node.child[slot];
+            if (!(word & kBvhLeafBit) || leafCount(word) == 0) continue;
+            Bounds leaf;
+            for (uint32_t item = leafFirst(word); item < leafFirst(word) + leafCount(word); ++item) {
+                leaf.add(boxes[bvh.order[item]].mins);
+                leaf.add(boxes[bvh.order[item]].maxs);
+            }
+            EXPECT_EQ(childBounds(node, slot).mins, leaf.mins);
+            EXPECT_EQ(childBounds(node, slot).maxs, leaf.maxs);
+        }
+    for (const float odd : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 1e13f}) {
+        std::vector<BvhTriangle> broken = triangles;
+        broken[77].corner1.z = odd;
+        EXPECT_FALSE(refit(bvh, broken)) << odd;
+    }
 }
 
 /// Closest hit in double precision over all triangles (Moeller-Trumbore 1997); infinity if none.

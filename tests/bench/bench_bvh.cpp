@@ -81,11 +81,11 @@ void buildBaseline(benchmark::State& state, const char* map) {
 void refitModel(benchmark::State& state) {
     std::vector<vec3> positions = worldOf("oacmpctf3").positions();
     positions.resize(3 * kModelTriangles);
-    const std::vector<Bounds> still = triangleBounds(positions);
+    Bvh bvh = buildSah(triangleBounds(positions));
+    const std::vector<BvhTriangle> still = leafTriangles(bvh, positions);
     for (vec3& p : positions)
         p.z += std::sin(p.x);
-    const std::vector<Bounds> moved = triangleBounds(positions);
-    Bvh bvh = buildSah(still);
+    const std::vector<BvhTriangle> moved = leafTriangles(bvh, positions);
     bool turn = false;
     for (auto _ : state)
         benchmark::DoNotOptimize(refit(bvh, (turn = !turn) ? moved : still));

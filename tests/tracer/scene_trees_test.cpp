@@ -44,7 +44,7 @@ TEST(SceneTrees, FiveThousandInstancesAreAllThere) {
 }
 
 TEST(SceneTrees, ModelsOfNothingOneTriangleAndNoNumbers) {
-    EXPECT_TRUE(buildTree({}, true).bounds.empty());
+    EXPECT_TRUE(buildTree({}, true).bvh.bounds.empty());
     std::vector<Vertex> vertices(6);
     vertices[1].position = {1, 0, 0};
     vertices[2].position = {0, 1, 0};
@@ -55,7 +55,7 @@ TEST(SceneTrees, ModelsOfNothingOneTriangleAndNoNumbers) {
         EXPECT_EQ(buildTree({&good, 1}, lasting).triangles.size(), 1u);
         const TreeData tree = buildTree({&odd, 1}, lasting);
         EXPECT_EQ(tree.triangles.size(), 1u);
-        EXPECT_EQ(tree.rejectedCount, 1u);
+        EXPECT_EQ(tree.bvh.rejectedCount, 1u);
     }
 }
 
