@@ -57,15 +57,23 @@ void Recording::open() {
     if (header.version != kTraceVersion)
         throw ContentError(formatText("%s: recording of version %u, this program reads version %u; record it again",
                                       m_name.c_str(), header.version, kTraceVersion));
+    if (header.zero != 0) fail("its header is damaged");
     readBytes(m_bytes - sizeof trailer, &trailer, sizeof trailer);
     if (trailer.end != kTraceEnd || trailer.crc != checksum(&trailer.indexOffset, sizeof trailer.indexOffset))
         fail("its end is missing");
     readTables(trailer.indexOffset);
 }
 
+TraceChunkHeader Recording::readChunkHeader(uint64_t offset) {
+    TraceChunkHeader header;
+    readBytes(offset, &header, sizeof header);
+    if (header.zero != 0) fail("a chunk's header is damaged");
+    return header;
+}
+
 Recording::Chunk Recording::readChunk(uint64_t offset) {
     Chunk chunk;
-    readBytes(offset, &chunk.header, sizeof chunk.header);
+    chunk.header = readChunkHeader(offset);
     const uint64_t dataOffset = offset + sizeof chunk.header;
     chunk.end = dataOffset + chunk.header.storedBytes;
     if (chunk.end > m_bytes) fail("it is cut off");
@@ -89,8 +97,7 @@ void Recording::readTables(uint64_t indexOffset) {
     // Files and Info stand between the events and the index: walk the chunks to them.
     bool infoFound = false;
     for (uint64_t offset = sizeof(TraceHeader); offset < indexOffset;) {
-        TraceChunkHeader header;
-        readBytes(offset, &header, sizeof header);
+        const TraceChunkHeader header = readChunkHeader(offset);
         if (header.kind != TraceChunk::Events) {
             const Chunk chunk = readChunk(offset);
             size_t position = 0;

@@ -37,6 +37,7 @@ class Recording {
         uint64_t end = 0; ///< offset of what follows in the file
     };
     void open();
+    TraceChunkHeader readChunkHeader(uint64_t offset);
     Chunk readChunk(uint64_t offset);
     void readBytes(uint64_t offset, void* data, size_t bytes);
     void readTables(uint64_t indexOffset);

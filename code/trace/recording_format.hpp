@@ -5,6 +5,9 @@
 //   chunks   u32 kind, u32 stored bytes, u64 raw bytes, u32 CRC-32 of the raw bytes, u32 0, then a zstd frame
 //   trailer  u64 offset of the index chunk, u32 CRC-32 of that number, "q3rt"
 //
+// Headers need no checksum: every bit of theirs is either one fixed value (a reader refuses any other) or must agree
+// with what it describes.
+//
 // Chunks: Events (whole frames, about a MiB), then one Files, one Info, one Index. The index lists every frame in
 // order: where its bytes lie and whether it is a loading frame. Loading frames are those before the world is first
 // drawn after a map load; the others are numbered from 0. A frame's bytes are trace events up to and including
