@@ -3,6 +3,8 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <vector>
 
@@ -16,6 +18,12 @@ namespace fs = std::filesystem;
 [[noreturn]] void fail(const fs::path& path, const char* reason) {
     throw UsageError(
         formatText("%s: can't be written: %s; choose a folder with space and write permission", path.c_str(), reason));
+}
+
+/// Its former writer took it away between our opening and our lock.
+bool isRemoved(int file) {
+    struct stat status {};
+    return fstat(file, &status) == 0 && status.st_nlink == 0 && S_ISREG(status.st_mode);
 }
 
 } // namespace
@@ -83,18 +91,35 @@ LineFile::LineFile(fs::path path, Old old)
     : m_path(std::move(path))
     , m_folders(m_path.parent_path(), m_path) {
     if (!isWanted()) return;
-    m_stream.open(m_path, old == Old::Continue ? std::ios::app : std::ios::trunc);
-    if (!m_stream) fail(m_path, std::strerror(errno));
+    do {
+        m_file.reset(open(m_path.c_str(), O_CREAT | O_WRONLY | O_APPEND | O_CLOEXEC, 0666));
+        if (m_file.number < 0) fail(m_path, std::strerror(errno));
+        // Where a file system has no locks, or at a terminal, the lines go in all the same.
+        if (flock(m_file.number, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+            throw UsageError(formatText("%s: another run of q3rt is writing into it; wait for its end, or choose "
+                                        "another file",
+                                        m_path.c_str()));
+    } while (isRemoved(m_file.number));
+    if (old == Old::Replace && fs::is_regular_file(m_path) && ftruncate(m_file.number, 0) != 0)
+        fail(m_path, std::strerror(errno));
 }
 
 LineFile::~LineFile() {
     std::error_code error;
-    if (isWanted() && fs::is_regular_file(m_path, error) && fs::file_size(m_path, error) == 0)
+    // Only its writer may remove it, and while the lock is held nobody else is one.
+    if (m_file.number >= 0 && fs::is_regular_file(m_path, error) && fs::file_size(m_path, error) == 0)
         fs::remove(m_path, error);
 }
 
 void LineFile::append(const std::string& line) {
-    if (isWanted() && !(m_stream << line << '\n' << std::flush)) fail(m_path, std::strerror(errno));
+    if (!isWanted()) return;
+    const std::string text = line + '\n';
+    for (size_t written = 0; written < text.size();) {
+        const ssize_t count = write(m_file.number, text.data() + written, text.size() - written);
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) fail(m_path, std::strerror(errno));
+        written += static_cast<size_t>(count);
+    }
 }
 
 } // namespace q3rt

@@ -3,9 +3,10 @@
 // long work begins.
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
+
+#include "host/descriptor.hpp"
 
 namespace q3rt {
 
@@ -64,7 +65,7 @@ class OutputFolder {
 class LineFile {
   public:
     enum class Old { Replace, Continue };
-    /// Empty: none. Throws UsageError if it can't be written.
+    /// Empty: none. Throws UsageError if it can't be written, or if another run of q3rt is writing into it.
     explicit LineFile(std::filesystem::path path, Old old = Old::Replace);
     ~LineFile();
     LineFile(const LineFile&) = delete;
@@ -76,7 +77,7 @@ class LineFile {
   private:
     std::filesystem::path m_path;
     MadeFolders m_folders;
-    std::ofstream m_stream;
+    Descriptor m_file; ///< locked: two writers would each add the same lines
 };
 
 } // namespace q3rt

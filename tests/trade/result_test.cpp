@@ -118,6 +118,20 @@ TEST(TradeFile, OtherPeoplesFilesStayAsTheyAre) {
     }
 }
 
+TEST(TradeFile, HasOneWriterAtATime) {
+    const fs::path path = makeScratchFolder("writers") / "sweep.jsonl";
+    const TradeResult result = makeResult(1, 0.5, "1");
+    {
+        TradeFile file(path);
+        EXPECT_THROW(TradeFile second(path), UsageError);
+        EXPECT_TRUE(fs::exists(path)) << "the one refused took the file along";
+        file.append(result);
+        EXPECT_THROW(LineFile replaced(path), UsageError);
+        EXPECT_EQ(readText(path), toJsonLine(result) + "\n");
+    }
+    EXPECT_TRUE(TradeFile(path).find(result.key, result.device)) << "a resumed sweep measures it again";
+}
+
 TEST(TradeFile, AFolderIsNoFile) { EXPECT_ANY_THROW(TradeFile file(makeScratchFolder("folder"))); }
 
 } // namespace q3rt::test
