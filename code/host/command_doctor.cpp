@@ -8,6 +8,7 @@
 
 #include "host/commands.hpp"
 #include "host/doctor.hpp"
+#include "host/json_text.hpp"
 #include "host/session.hpp"
 
 namespace q3rt {
@@ -47,7 +48,7 @@ void printJson(const std::vector<Check>& checks) {
                         {"text", check.text},
                         {"remedy", check.remedy}});
     const nlohmann::ordered_json report{{"playable", isPlayable(checks)}, {"checks", list}};
-    std::printf("%s\n", report.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+    std::printf("%s\n", toJsonText(report).c_str());
 }
 
 } // namespace

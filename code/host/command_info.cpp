@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "host/census.hpp"
 #include "host/commands.hpp"
+#include "host/json_text.hpp"
 #include "host/luxel_table.hpp"
 #include "host/option_checks.hpp"
 #include "host/session.hpp"
@@ -91,7 +92,7 @@ void printMap(Pk3FileSource& files, const std::string& map, const InfoArguments&
     }
     const MapCensus census = takeCensus(*world, materials);
     if (arguments.json)
-        std::printf("%s\n", toJson(census).dump().c_str());
+        std::printf("%s\n", toJsonText(toJson(census)).c_str());
     else
         printText(census);
 }

@@ -11,9 +11,11 @@
 #include "host/commands.hpp"
 #include "host/engine_process.hpp"
 #include "host/file_bytes.hpp"
+#include "host/json_text.hpp"
 #include "host/lost_light_files.hpp"
 #include "host/option_checks.hpp"
 #include "host/output_file.hpp"
+#include "host/setting_checks.hpp"
 
 namespace q3rt {
 namespace {
@@ -63,11 +65,11 @@ class PlayReport {
                                              {"device", m_device},
                                              {"pictures", m_pictures}};
         if (m_folder.isWanted()) {
-            const std::string text = line.dump() + "\n";
+            const std::string text = toJsonText(line) + "\n";
             writeFileBytes(m_folder.path() / "summary.json", std::as_bytes(std::span(text)));
         }
         if (json)
-            std::printf("%s\n", line.dump().c_str());
+            std::printf("%s\n", toJsonText(line).c_str());
         else
             std::printf("%s, median %.2f ms, 99th percentile %.2f ms, device %s, %s%s%s\n",
                         countOf(times.count, "frame").c_str(), times.medianMs, times.p99Ms, m_device.c_str(),
@@ -87,6 +89,7 @@ class PlayReport {
 
 void runPlay(PlayArguments& a) {
     EngineRun& run = a.run;
+    requireKnownSettings(run.cvars);
     run.module = findModule(a.renderer);
     const auto files = openGame(run.game);
     if (!a.demo.empty()) run.demo = findDemo(*files, a.demo);

@@ -1,6 +1,7 @@
 // q3rt record: a demo played in the real engine, the renderer's calls written down.
 
 #include <cstdio>
+#include <fstream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -9,8 +10,10 @@
 #include "base/error.hpp"
 #include "host/commands.hpp"
 #include "host/engine_process.hpp"
+#include "host/json_text.hpp"
 #include "host/option_checks.hpp"
 #include "host/output_file.hpp"
+#include "host/setting_checks.hpp"
 
 namespace q3rt {
 namespace {
@@ -26,11 +29,13 @@ struct RecordArguments {
 
 void runRecord(RecordArguments& a) {
     EngineRun& run = a.run;
+    requireKnownSettings(run.cvars);
     run.module = findModule(a.renderer);
     run.demo = findDemo(*openGame(run.game), a.demo);
     run.headless = run.timed = run.watched = true;
     OutputFile output(fs::absolute(a.out));
     run.recordTo = output.temporary();
+    run.recordingName = a.out;
     const OutputFolder pictures(a.pictures);
     run.pictureEvery = pictures.isWanted() ? a.every : 0;
     const int frames = run.recordFirst + run.recordCount;
@@ -44,7 +49,7 @@ void runRecord(RecordArguments& a) {
             progress.advance(static_cast<size_t>(frame.frame) + 1);
         });
     }
-    const Recording recording(run.recordTo);
+    const Recording recording(std::make_unique<std::ifstream>(run.recordTo, std::ios::binary), a.out);
     const TraceInfo& info = recording.info();
     const uintmax_t bytes = fs::file_size(run.recordTo);
     if (info.frameCount == 0)
@@ -60,7 +65,7 @@ void runRecord(RecordArguments& a) {
                                              {"height", info.height},
                                              {"files", recording.files().size()},
                                              {"bytes", bytes}};
-        std::printf("%s\n", line.dump().c_str());
+        std::printf("%s\n", toJsonText(line).c_str());
     } else {
         std::printf("%s: %s of %s at %dx%d, %u loading frames, %zu files read, %.1f MB\n", a.out.c_str(),
                     countOf(info.frameCount, "frame").c_str(), info.map.c_str(), info.width, info.height,

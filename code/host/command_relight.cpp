@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "host/commands.hpp"
+#include "host/json_text.hpp"
 #include "host/lost_light_files.hpp"
 #include "host/option_checks.hpp"
 
@@ -63,7 +64,7 @@ nlohmann::ordered_json toJson(const std::string& map, const RelightOutcome& outc
 
 void printOutcome(const std::string& map, const RelightOutcome& outcome, bool json) {
     if (json) {
-        std::printf("%s\n", toJson(map, outcome).dump().c_str());
+        std::printf("%s\n", toJsonText(toJson(map, outcome)).c_str());
     } else {
         const RelightResult& r = outcome.result;
         std::printf("%-18s %4zu lights, %zu suns; held-out luxels: correlation %.3f (was %.3f), median error %.0f %% "

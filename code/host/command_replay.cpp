@@ -9,10 +9,12 @@
 #include "base/error.hpp"
 #include "host/commands.hpp"
 #include "host/headless/replayer.hpp"
+#include "host/json_text.hpp"
 #include "host/map_stage.hpp"
 #include "host/option_checks.hpp"
 #include "host/output_file.hpp"
 #include "host/session.hpp"
+#include "host/setting_checks.hpp"
 
 namespace q3rt {
 namespace {
@@ -69,7 +71,7 @@ void printSummary(const ReplayArguments& arguments, const TimeSummary& times, co
         const nlohmann::ordered_json line = {{"frames", times.count},      {"median_ms", times.medianMs},
                                              {"p99_ms", times.p99Ms},      {"width", config.vidWidth},
                                              {"height", config.vidHeight}, {"device", config.renderer_string}};
-        std::printf("%s\n", line.dump().c_str());
+        std::printf("%s\n", toJsonText(line).c_str());
         return;
     }
     std::printf("%s at %dx%d: median %.2f ms, 99th percentile %.2f ms (%s)\n", countOf(times.count, "frame").c_str(),
@@ -91,7 +93,9 @@ void runReplay(const ReplayArguments& arguments) {
     engine.showsMessages = arguments.verbose;
     engine.loadModule(findModule(arguments.renderer));
     if (output.wantsStats()) engine.cvars.preset("q3rt_wantStats", "1");
-    Replayer replayer(recording, engine, {arguments.size.width, arguments.size.height, arguments.cvars});
+    Replayer replayer(recording, engine, {arguments.size.width, arguments.size.height, arguments.cvars, [&] {
+                                              requireSettings(engine.cvars, arguments.cvars);
+                                          }});
     Progress progress("frame", static_cast<size_t>(end - first));
     std::vector<double> times;
     for (size_t i = 0; i < recording.frameCount(); ++i) {
@@ -110,7 +114,6 @@ void runReplay(const ReplayArguments& arguments) {
         times.push_back(result.wallMs);
         progress.advance(times.size());
     }
-    reportSettings(engine.cvars, arguments.cvars);
     printSummary(arguments, summarizeTimes(times), engine.config());
     engine.unloadModule();
 }

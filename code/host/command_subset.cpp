@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "host/commands.hpp"
 #include "host/headless/replayer.hpp"
+#include "host/json_text.hpp"
 #include "host/map_stage.hpp"
 #include "host/output_file.hpp"
 #include "host/session.hpp"
@@ -63,9 +64,7 @@ void runSubset(const SubsetArguments& a) {
     writePk3(a.out, entries);
     const uintmax_t size = fs::file_size(a.out);
     if (a.json)
-        std::printf(
-            "%s\n",
-            nlohmann::ordered_json{{"archive", a.out}, {"files", entries.size()}, {"bytes", size}}.dump().c_str());
+        std::printf("%s\n", toJsonText({{"archive", a.out}, {"files", entries.size()}, {"bytes", size}}).c_str());
     else
         std::printf("%s: %s, %.1f MB\n", a.out.c_str(), countOf(entries.size(), "file").c_str(),
                     static_cast<double>(size) / 1e6);

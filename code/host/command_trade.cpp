@@ -79,7 +79,7 @@ std::vector<TradePoint> listPoints(const TradeArguments& a, const TradeSession& 
     if (axes.empty()) return listStandardPoints(a.pointCount, a.size, a.fixed, isDeclared);
     for (const TradeAxis& axis : axes)
         if (!isPointAxis(axis.name) && !isDeclared(axis.name))
-            throw UsageError("--axis " + axis.name + ": the renderer " + a.renderer + " has no such setting");
+            throw CLI::ValidationError("--axis " + axis.name, session.complaint(axis.name));
     return crossAxes(axes, a.size, a.fixed);
 }
 

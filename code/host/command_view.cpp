@@ -15,6 +15,7 @@
 #include "host/map_stage.hpp"
 #include "host/option_checks.hpp"
 #include "host/output_file.hpp"
+#include "host/setting_checks.hpp"
 
 namespace q3rt {
 namespace {
@@ -84,10 +85,10 @@ void runView(const ViewArguments& a) {
     engine.showsMessages = a.verbose;
     engine.loadModule(findModule(a.renderer));
     stage.load(engine);
+    requireSettings(engine.cvars, a.cvars);
     const glconfig_t& config = engine.config();
     const refdef_t view = makeView(eye, a.fovDegrees, config.vidWidth, config.vidHeight, a.timeMs);
     const ViewResult result = drawFrames(engine, a, stage, view);
-    reportSettings(engine.cvars, a.cvars);
     if (const std::string warnings = engine.unshownWarnings(); !warnings.empty())
         logLine(LogLevel::Warning, "%s", warnings.c_str());
     writeResult(engine, a, result);

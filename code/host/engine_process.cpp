@@ -6,18 +6,19 @@
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
+#include <optional>
 #include <poll.h>
-#include <set>
-#include <sstream>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/error.hpp"
+#include "host/descriptor.hpp"
+#include "host/engine_console.hpp"
 #include "host/engine_setup.hpp"
-#include "host/file_bytes.hpp"
 #include "host/interrupt.hpp"
+#include "host/kept_configuration.hpp"
 
 extern char** environ;
 
@@ -28,20 +29,6 @@ namespace fs = std::filesystem;
 
 /// The longest silence of a healthy headless run: a frame, or a map load with its shaders, on a slow machine.
 constexpr int kPatienceMs = 300'000;
-
-/// A file descriptor that closes itself.
-struct Descriptor {
-    int number = -1;
-    explicit Descriptor(int n)
-        : number(n) {}
-    ~Descriptor() { reset(); }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    void reset() {
-        if (number >= 0) close(number);
-        number = -1;
-    }
-};
 
 /// A child process that doesn't outlive its owner.
 class Child {
@@ -168,43 +155,12 @@ void receiveFrames(int socket, const std::function<void(const WatchedFrame&)>& o
     }
 }
 
-/// What the engine's console says about its end, without ornaments.
-std::string lastError(const fs::path& console) {
-    const std::vector<std::byte> bytes = readFileBytes(console);
-    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    constexpr std::string_view kCrash = "(Client fatal crashed: ", kCrashEnd = ") -----";
-    if (const size_t crash = text.rfind(kCrash); crash != std::string::npos) {
-        const size_t start = crash + kCrash.size();
-        return text.substr(start, text.find(kCrashEnd, start) - start);
-    }
-    std::string found;
-    for (size_t start = 0; start < text.size();) {
-        const size_t end = std::min(text.find('\n', start), text.size());
-        const std::string line = text.substr(start, end - start);
-        for (const char* part : {"ERROR: ", kRecordingEnded, "renderer_q3trecord: "})
-            if (const size_t at = line.find(part); at != std::string::npos) found = line.substr(at);
-        start = end + 1;
-    }
-    return found;
-}
-
-/// What the renderer said of settings that the user gave, short of its last word: a line that begins with such a name.
-void repeatWarnings(const fs::path& console, const CvarList& settings, const std::string& lastWord) {
-    const std::vector<std::byte> bytes = readFileBytes(console);
-    std::istringstream text(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
-    std::set<std::string> repeated;
-    for (std::string line; std::getline(text, line);) {
-        if (line.starts_with('^')) line.erase(0, 2); // the engine's colour of warnings
-        const std::string name = line.substr(0, line.find_first_of(": "));
-        const bool given = std::ranges::any_of(settings, [&](const auto& setting) { return setting.first == name; });
-        if (given && line != lastWord && repeated.insert(line).second) std::fprintf(stderr, "q3rt: %s\n", line.c_str());
-    }
-}
-
 } // namespace
 
 void runEngine(const EngineRun& run, const std::function<void(const WatchedFrame&)>& onFrame) {
     const RunFolder home(run.headless);
+    std::optional<KeptConfiguration> kept; // until the engine has ended
+    if (!run.headless) kept.emplace(home.path() / findInstallation(run.game).game, listSettings(run));
     const EngineCommand command = prepareEngine(run, home.path());
     const fs::path console = home.path() / "console.txt";
     Descriptor output(run.headless ? open(console.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0644) : -1);
@@ -217,8 +173,10 @@ void runEngine(const EngineRun& run, const std::function<void(const WatchedFrame
     theirs.reset();
     if (run.watched) receiveFrames(ours.number, onFrame);
     const int status = child.wait();
-    const std::string error = run.headless ? lastError(console) : std::string();
-    if (run.headless) repeatWarnings(console, run.cvars, error);
+    const std::string said = run.headless ? readConsole(console) : std::string();
+    const std::string error = findLastError(said);
+    for (const std::string& complaint : listComplaints(said, run.cvars))
+        if (complaint != error) std::fprintf(stderr, "q3rt: %s\n", complaint.c_str());
     if (error.starts_with(kRecordingEnded)) throw UsageError(error.substr(std::strlen(kRecordingEnded)));
     if (!error.empty() || status != 0)
         throw DeviceError(formatText("the engine failed (status %d)%s%s; 'q3rt doctor' looks for the cause", status,

@@ -34,6 +34,7 @@ struct EngineRun {
     bool wantsStats = false; ///< from the module; a software driver waits for the drawing where it is timed
     int pictureEvery = 0, frameLimit = 0; ///< 0: none
     std::filesystem::path recordTo;       ///< empty: no recording
+    std::string recordingName;            ///< for messages: recordTo is only a place until it is complete
     int recordFirst = 0, recordCount = 0; ///< world frames; count 0: all
 };
 

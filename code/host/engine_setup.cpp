@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <set>
 #include <unistd.h>
@@ -12,6 +10,7 @@
 #include "base/user_cache.hpp"
 #include "formats/text_case.hpp"
 #include "host/file_bytes.hpp"
+#include "host/orphans.hpp"
 
 namespace q3rt {
 namespace {
@@ -65,13 +64,7 @@ void appendSetting(std::string& script, const std::string& name, const std::stri
 /// Settings go into a script, because the command line is short.
 void writeSettings(const EngineRun& run, const fs::path& gameHome) {
     std::string script;
-    if (run.size.width > 0) {
-        appendSetting(script, "r_mode", "-1");
-        appendSetting(script, "r_customwidth", std::to_string(run.size.width));
-        appendSetting(script, "r_customheight", std::to_string(run.size.height));
-    }
-    if (run.headless) appendSetting(script, "r_fullscreen", "0");
-    for (const auto& [name, value] : run.cvars)
+    for (const auto& [name, value] : listSettings(run))
         appendSetting(script, name, value);
     writeFileBytes(gameHome / "autoexec.cfg", std::as_bytes(std::span(script)));
 }
@@ -141,23 +134,6 @@ fs::path cacheFolder() {
     return folder;
 }
 
-namespace {
-
-/// Folders whose owners were killed.
-void removeOrphans(const fs::path& cache) {
-    std::error_code error;
-    std::vector<fs::path> orphans;
-    for (fs::directory_iterator entry(cache, error), end; !error && entry != end; entry.increment(error)) {
-        int owner = 0;
-        const bool isOurs = std::sscanf(entry->path().filename().c_str(), "run-%d-", &owner) == 1;
-        if (isOurs && kill(owner, 0) != 0 && errno == ESRCH) orphans.push_back(entry->path());
-    }
-    for (const fs::path& orphan : orphans)
-        fs::remove_all(orphan, error);
-}
-
-} // namespace
-
 RunFolder::RunFolder(bool fresh)
     : m_fresh(fresh) {
     const fs::path cache = cacheFolder();
@@ -166,8 +142,11 @@ RunFolder::RunFolder(bool fresh)
         fs::create_directories(m_path);
         return;
     }
-    removeOrphans(cache);
-    std::string name = (cache / formatText("run-%d-XXXXXX", static_cast<int>(getpid()))).string();
+    constexpr const char* kPrefix = "run-";
+    std::error_code ignored;
+    for (const fs::path& orphan : listOrphans(cache, kPrefix))
+        fs::remove_all(orphan, ignored);
+    std::string name = (cache / (nameOfProcess(kPrefix) + "-XXXXXX")).string();
     if (!mkdtemp(name.data()))
         throw UsageError(formatText("%s: can't be written to: %s; set XDG_CACHE_HOME to a writable folder",
                                     cache.c_str(), std::strerror(errno)));
@@ -177,6 +156,17 @@ RunFolder::RunFolder(bool fresh)
 RunFolder::~RunFolder() {
     std::error_code ignored;
     if (m_fresh) fs::remove_all(m_path, ignored);
+}
+
+CvarList listSettings(const EngineRun& run) {
+    CvarList settings;
+    if (run.size.width > 0)
+        settings = {{"r_mode", "-1"},
+                    {"r_customwidth", std::to_string(run.size.width)},
+                    {"r_customheight", std::to_string(run.size.height)}};
+    if (run.headless) settings.emplace_back("r_fullscreen", "0");
+    settings.insert(settings.end(), run.cvars.begin(), run.cvars.end());
+    return settings;
 }
 
 EngineCommand prepareEngine(const EngineRun& run, const fs::path& home) {
@@ -219,11 +209,13 @@ EngineCommand prepareEngine(const EngineRun& run, const fs::path& home) {
     if (run.watched) environment.emplace_back(kRecordInner, run.module);
     if (!run.recordTo.empty()) {
         environment.emplace_back(kRecordOut, run.recordTo);
+        environment.emplace_back(kRecordName, run.recordingName);
         environment.emplace_back(kRecordFirst, std::to_string(run.recordFirst));
         environment.emplace_back(kRecordCount, std::to_string(run.recordCount));
     }
     environment.emplace_back(kWatchEvery, std::to_string(run.pictureEvery));
     environment.emplace_back(kWatchStats, run.wantsStats ? "1" : "0");
+    environment.emplace_back(kWatchCvars, run.headless && !run.cvars.empty() ? "1" : "0");
     environment.emplace_back(kWatchFrames, std::to_string(run.frameLimit));
     return command;
 }

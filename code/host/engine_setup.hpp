@@ -30,6 +30,9 @@ struct EngineCommand {
     std::vector<std::pair<std::string, std::string>> environment; ///< added to our own
 };
 
+/// What the run sets of the engine's cvars.
+CvarList listSettings(const EngineRun& run);
+
 /// Prepares `home` (start-up settings, and the overlay for older demos) and builds the command.
 EngineCommand prepareEngine(const EngineRun& run, const std::filesystem::path& home);
 

@@ -37,10 +37,8 @@ std::optional<LostLights> readLights(const fs::path& file, const std::string& li
 }
 
 void writeLights(const fs::path& file, const LostLights& lights, const std::string& map) {
-    OutputFile out(file);
     const std::string text = formatLostLights(lights, map);
-    writeFileBytes(out.temporary(), std::as_bytes(std::span(text)));
-    out.commit();
+    writeFileBytes(file, std::as_bytes(std::span(text)));
 }
 
 fs::path fileOf(const RelightJob& job) { return job.folder / (job.map + ".ent"); }

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host/json_text.hpp"
 #include "scene/luxels.hpp"
 
 namespace q3rt {
@@ -38,7 +39,7 @@ void printLuxels(const std::string& map, const World& world, const MaterialLibra
                                              {"slope", r.slope},
                                              {"explained_share", r.explainedShare},
                                              {"median_ratio", r.medianRatio}};
-        std::printf("%s\n", line.dump().c_str());
+        std::printf("%s\n", toJsonText(line).c_str());
     } else {
         std::printf("%-18s %6zu %8.1f %8.1f %7.1f %7.1f %7.1f %7.1f %6.2f %6.2f %8.0f%% %6.2f\n", map.c_str(),
                     lights.triangles.size(), r.meanBaked, r.meanTraced, r.meanSurfaces, r.meanSun, r.meanSky,

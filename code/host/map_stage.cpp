@@ -79,11 +79,4 @@ void presetPicture(CvarTable& cvars, const PictureSize& size, const CvarList& se
     for (const auto& [name, value] : settings)
         cvars.preset(name, value);
 }
-
-void reportSettings(const CvarTable& cvars, const CvarList& settings) {
-    for (const auto& [name, value] : settings)
-        if (const std::string complaint = cvars.complaint(name); !complaint.empty())
-            std::fprintf(stderr, "q3rt: --set %s=%s: %s\n", name.c_str(), value.c_str(), complaint.c_str());
-}
-
 } // namespace q3rt

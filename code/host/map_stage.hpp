@@ -42,7 +42,5 @@ class MapStage {
 
 /// What makes a headless module draw pictures of this size, with these settings on top, and tell its times.
 void presetPicture(CvarTable& cvars, const PictureSize& size, const CvarList& settings);
-/// Says on stderr which of the settings do nothing or not what was asked, once the renderer has declared its own.
-void reportSettings(const CvarTable& cvars, const CvarList& settings);
 
 } // namespace q3rt

@@ -14,6 +14,7 @@
 #include "formats/image.hpp"
 #include "host/file_bytes.hpp"
 #include "host/interrupt.hpp"
+#include "host/json_text.hpp"
 #include "host/option_checks.hpp"
 
 namespace q3rt {
@@ -76,7 +77,7 @@ void addSetOption(CLI::App& command, CvarList& cvars) {
                     cvars.emplace_back(text.substr(0, equals), text.substr(equals + 1));
                 }
             },
-            "Set a cvar; may be given several times")
+            "Set a cvar for this run; may be given several times")
         ->type_name("CVAR=VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -238,7 +239,7 @@ std::string statsLine(int frame, double wallMs, const std::string& moduleStats) 
     if (stats.is_object())
         for (const auto& [name, value] : stats.items())
             line[name] = value;
-    return line.dump();
+    return toJsonText(line);
 }
 
 } // namespace q3rt

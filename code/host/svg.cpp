@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "host/json_text.hpp"
 
 namespace q3rt::svg {
 namespace {
@@ -12,7 +13,7 @@ constexpr double kCapLength = 4; ///< pixels, half of an error bar's end
 
 std::string escapeXml(const std::string& text) {
     std::string escaped;
-    for (const char c : text) {
+    for (const char c : toUtf8(text)) {
         if (c == '&')
             escaped += "&amp;";
         else if (c == '<')

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "host/file_bytes.hpp"
+#include "host/json_text.hpp"
 #include "metrics/statistics.hpp"
 
 namespace q3rt {
@@ -107,7 +108,7 @@ std::string toJsonLine(const TradeResult& result) {
     line["reference"] = {
         {"frames", result.referenceFrames}, {"error", toJson(result.referenceError)}, {"settings", result.reference}};
     line["command"] = result.command;
-    return line.dump();
+    return toJsonText(line);
 }
 
 std::optional<TradeResult> parseResult(const std::string& line) {

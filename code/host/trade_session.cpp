@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "formats/text_case.hpp"
 #include "host/file_bytes.hpp"
+#include "host/setting_checks.hpp"
 
 namespace q3rt {
 namespace {
@@ -61,7 +62,7 @@ void TradeSession::apply(const TradePoint& point) {
         if (!point.cvars.contains(name)) m_engine->cvars.preset(name, defaultOf(name));
     for (const auto& [name, value] : point.cvars)
         setCvar(name, value);
-    checkSettings(point);
+    requireSettings(m_engine->cvars, {point.cvars.begin(), point.cvars.end()});
 }
 
 void TradeSession::start(const TradePoint& point) {
@@ -76,19 +77,13 @@ void TradeSession::start(const TradePoint& point) {
         m_setCvars.insert(name);
     m_startSettings = startSettings(point);
     m_source.draw(*m_engine, 0, false);
-    checkSettings(point);
+    requireSettings(m_engine->cvars, {point.cvars.begin(), point.cvars.end()});
     const auto json = nlohmann::json::parse(stats(), nullptr, false);
     m_device = m_engine->config().renderer_string;
     m_backend.clear();
     if (!json.is_object()) return;
     m_device = json.value("device", m_device);
     m_backend = json.value("backend", m_backend);
-}
-
-void TradeSession::checkSettings(const TradePoint& point) const {
-    for (const auto& [name, value] : point.cvars)
-        if (const std::string complaint = m_engine->cvars.complaint(name); !complaint.empty())
-            throw UsageError(name + "=" + value + " can't be measured: " + complaint);
 }
 
 std::string TradeSession::startSettings(const TradePoint& point) const {

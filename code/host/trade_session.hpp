@@ -19,9 +19,12 @@ class TradeSession {
     ~TradeSession();
 
     /// Every cvar of the point is in force afterwards; those of earlier points that it lacks are at their defaults.
+    /// Throws as requireSettings does.
     void apply(const TradePoint& point);
     /// After the first apply().
     bool isDeclared(const std::string& name) const;
+    /// Why there is no such setting, or "".
+    std::string complaint(const std::string& name) const { return m_engine->cvars.complaint(name); }
     bool isLatched(const std::string& name) const;
     std::string defaultOf(const std::string& name) const; ///< of a declared cvar
     const std::string& device() const { return m_device; }
@@ -39,8 +42,6 @@ class TradeSession {
   private:
     class HashedFiles;
     void start(const TradePoint& point);
-    /// Throws UsageError if a setting of the point is not in force as it was given.
-    void checkSettings(const TradePoint& point) const;
     std::string startSettings(const TradePoint& point) const;
 
     TradeSource& m_source;

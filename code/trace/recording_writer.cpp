@@ -19,9 +19,10 @@ constexpr int kCompression = 3;
 
 } // namespace
 
-RecordingWriter::RecordingWriter(std::filesystem::path path)
+RecordingWriter::RecordingWriter(std::filesystem::path path, std::string name)
     : m_path(std::move(path))
-    , m_temporary(m_path.string() + formatText(".%d.tmp", static_cast<int>(getpid()))) {
+    , m_temporary(m_path.string() + formatText(".%d.tmp", static_cast<int>(getpid())))
+    , m_name(std::move(name)) {
     m_file.reset(std::fopen(m_temporary.c_str(), "wb"));
     if (!m_file) fail(std::strerror(errno));
     const TraceHeader header;
@@ -37,7 +38,7 @@ RecordingWriter::~RecordingWriter() {
 
 void RecordingWriter::fail(const char* what) const {
     throw UsageError(
-        formatText("%s: can't be written: %s; choose a folder with space and write permission", m_path.c_str(), what));
+        formatText("%s: can't be written: %s; choose a folder with space and write permission", m_name.c_str(), what));
 }
 
 void RecordingWriter::write(const void* data, size_t bytes) {

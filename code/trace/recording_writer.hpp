@@ -14,8 +14,10 @@ namespace q3rt {
 
 class RecordingWriter {
   public:
-    /// Throws UsageError if the folder can't be written to.
-    explicit RecordingWriter(std::filesystem::path path);
+    /// `name` is for messages: the file that the user asked for. Throws UsageError if the folder can't be written to.
+    RecordingWriter(std::filesystem::path path, std::string name);
+    explicit RecordingWriter(const std::filesystem::path& path)
+        : RecordingWriter(path, path.string()) {}
     ~RecordingWriter();
     RecordingWriter(const RecordingWriter&) = delete;
     RecordingWriter& operator=(const RecordingWriter&) = delete;
@@ -45,6 +47,7 @@ class RecordingWriter {
     [[noreturn]] void fail(const char* what) const;
 
     std::filesystem::path m_path, m_temporary;
+    std::string m_name;
     std::unique_ptr<std::FILE, CloseFile> m_file;
     uint64_t m_offset = 0; ///< bytes written
     std::vector<std::byte> m_events;

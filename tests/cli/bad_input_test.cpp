@@ -317,25 +317,6 @@ INSTANTIATE_TEST_SUITE_P(Situations, DoctorFinds, testing::ValuesIn(situationsOf
                          [](const auto& info) { return std::string(info.param.name); });
 
 // In a running game a missing or damaged asset is a warning and the engine's default look.
-TEST(BadSetting, IsAWarningThatNamesWhatIsInForce) {
-    const fs::path in = makeScratchFolder("bad_setting");
-    makeBadInput(in);
-    const fs::path out = makeScratchFolder("bad_setting_results") / "a.png";
-    const ProgramResult result =
-        runQ3rt({"view", "--basepath", (in / "good").string(), "--map", kBadMap, "--renderer", "vk", "--size", "64x48",
-                 "--set", "r_gamma=9", "--set", "r_gama=1", "--out", out.string()});
-    if (result.errors.find("no Vulkan d") != std::string::npos) GTEST_SKIP() << result.errors;
-    EXPECT_EQ(result.exitCode, 0) << result.errors;
-    EXPECT_NE(result.errors.find("r_gamma takes numbers from 0.5 to 3, not '9': it is 3"), std::string::npos)
-        << result.errors;
-    EXPECT_NE(result.errors.find("no setting of this renderer is called r_gama"), std::string::npos) << result.errors;
-    // What only the renderer knows is its own warning, which needs no --verbose.
-    const ProgramResult traced = runQ3rt({"view", "--basepath", (in / "good").string(), "--map", kBadMap, "--renderer",
-                                          "rt", "--size", "64x48", "--set", "rt_preset=nice", "--out", out.string()});
-    EXPECT_EQ(traced.exitCode, 0) << traced.errors;
-    EXPECT_NE(traced.errors.find("rt_preset nice: "), std::string::npos) << traced.errors;
-}
-
 TEST(BadContent, IsAWarningAndThePictureIsDrawn) {
     const fs::path in = makeScratchFolder("bad_content");
     makeBadInput(in);

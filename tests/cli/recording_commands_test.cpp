@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <nlohmann/json.hpp>
+
+#include "bad_input.hpp"
 #include "host/file_bytes.hpp"
 #include "support/game_data.hpp"
 #include "support/run_program.hpp"
@@ -153,9 +156,29 @@ TEST(RecordingCommands, AFullDiskEndsTheRecordingInOneLine) {
     setrlimit(RLIMIT_FSIZE, &before);
     signal(SIGXFSZ, SIG_DFL);
     EXPECT_EQ(result.exitCode, 1);
-    EXPECT_NE(result.errors.find("a.q3t"), std::string::npos) << result.errors;
-    EXPECT_NE(result.errors.find("can't be written"), std::string::npos) << result.errors;
+    EXPECT_TRUE(result.saysInOneLine("q3rt: " + (folder / "a.q3t").string() + ": can't be written")) << result.errors;
     EXPECT_TRUE(fs::is_empty(folder));
+}
+
+// A path is bytes; JSON is UTF-8.
+TEST(RecordingCommands, JsonIsValidWhateverThePath) {
+    const fs::path folder = makeScratchFolder("json_paths");
+    makeBadInput(folder);
+    const std::string odd = (folder / "caf\xe9 \xff").string();
+    const std::vector<std::vector<std::string>> commands = {
+        {"subset", "--map", kBadMap, "--basepath", (folder / "good").string(), "--out", odd + ".pk3"},
+        {"doctor", "--out", odd}};
+    for (std::vector<std::string> command : commands) {
+        command.push_back("--json");
+        const ProgramResult result = runQ3rt(command);
+        EXPECT_TRUE(nlohmann::json::accept(result.output)) << result.output << result.errors;
+        EXPECT_NE(result.output.find("caf\xef\xbf\xbd"), std::string::npos) << result.output;
+    }
+    if (!canPlay()) GTEST_SKIP() << kNoGameData;
+    const ProgramResult recorded =
+        runQ3rt({"record", "--demo", "demo088-test1", "--count", "1", "--out", odd + ".q3t", "--json"});
+    EXPECT_EQ(recorded.exitCode, 0) << recorded.errors;
+    EXPECT_TRUE(nlohmann::json::accept(recorded.output)) << recorded.output;
 }
 
 TEST(RecordingCommands, WhatAKilledRunLeftIsRemovedByTheNext) {

@@ -63,12 +63,14 @@ const std::vector<Row> kSharedRows = {
 
 std::string renderSettingsPage() {
     return "# Settings\n\n"
-           "Every setting is a cvar: type it at the console, or give it to `q3rt` as `--set NAME=VALUE`. *archived*: "
-           "kept\n"
-           "in the engine's configuration; *latched*: takes effect at `vid_restart` or the next map; *cheat*: only "
-           "with\n"
-           "`sv_cheats 1` or in a demo. This page is made from the lists in the source by "
-           "`build/print_settings_table`.\n\n"
+           "Every setting is a cvar: type it at the console, or give it to `q3rt` for one run as `--set NAME=VALUE`.\n"
+           "*archived*: kept in the engine's configuration; *latched*: takes effect at `vid_restart` or the next map; "
+           "*cheat*:\n"
+           "only with `sv_cheats 1` or in a demo. A name or value that the renderer does not take ends the run (exit "
+           "status 2).\n"
+           "Of the engine's and the game's own cvars, which only they know, `play --headless` and `record` say which "
+           "nobody took.\n"
+           "This page is made from the lists in the source by `build/print_settings_table`.\n\n"
            "## Ray tracer\n\n" +
            renderTable(kTracerRows) + "\n## Rasteriser and window (both renderers)\n\n" + renderTable(kRasterRows) +
            "\n## Content and scenes (both renderers)\n\n" + renderTable(kSharedRows);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "host/headless/nearest_name.hpp"
 
 namespace q3rt {
 namespace {
@@ -134,13 +135,18 @@ std::string CvarTable::value(std::string_view name) const {
 
 std::string CvarTable::complaint(std::string_view name) const {
     const auto found = m_entries.find(keyOf(name));
-    if (found == m_entries.end() || found->second->cvar.flags & kUserCreated)
-        return formatText("no setting of this renderer is called %s", std::string(name).c_str());
+    if (found == m_entries.end() || found->second->cvar.flags & kUserCreated) {
+        std::vector<std::string> declared;
+        for (const auto& [key, entry] : m_entries)
+            if (!(entry->cvar.flags & kUserCreated)) declared.push_back(entry->name);
+        const std::string given(name);
+        return formatText("no setting of this renderer is called %s", given.c_str()) + hintAtNearest(given, declared);
+    }
     const Entry& entry = *found->second;
     if (!entry.refused) return "";
-    return formatText("%s takes %s from %g to %g, not '%s': it is %s", entry.name.c_str(),
+    return formatText("%s takes %s from %g to %g, not '%s'", entry.name.c_str(),
                       entry.cvar.integral ? "whole numbers" : "numbers", entry.cvar.min, entry.cvar.max,
-                      entry.refused->c_str(), entry.value.c_str());
+                      entry.refused->c_str());
 }
 
 std::vector<std::string> CvarTable::names() const {

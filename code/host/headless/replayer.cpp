@@ -57,6 +57,7 @@ struct Replayer::Player {
     void operator()(const event::BeginRegistration& e) const {
         if (!stateful) return;
         const glconfig_t& config = replayer.m_engine.beginRegistration();
+        if (replayer.m_onStarted) replayer.m_onStarted();
         replayer.m_scaleX = static_cast<float>(config.vidWidth) / static_cast<float>(e.width);
         replayer.m_scaleY = static_cast<float>(config.vidHeight) / static_cast<float>(e.height);
     }
@@ -225,7 +226,8 @@ struct Replayer::Player {
 };
 
 Replayer::Replayer(const Recording& recording, HeadlessEngine& engine, const Options& options)
-    : m_engine(engine) {
+    : m_engine(engine)
+    , m_onStarted(options.onStarted) {
     const int width = options.width > 0 ? options.width : recording.info().width;
     const int height = options.height > 0 ? options.height : recording.info().height;
     const std::pair<const char*, std::string> size[] = {{"r_mode", "-1"},

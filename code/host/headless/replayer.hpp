@@ -2,6 +2,7 @@
 // Plays a recording's events into a module on the headless engine. Handles are translated from the recording's numbers
 // to the module's; pixel coordinates from the recorded picture size to the chosen one.
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -20,6 +21,7 @@ class Replayer {
     struct Options {
         int width = 0, height = 0;                              ///< pixels; 0: as recorded
         std::vector<std::pair<std::string, std::string>> cvars; ///< win over the recorded values
+        std::function<void()> onStarted = {};                   ///< the module has declared its cvars; may throw
     };
     /// Sets the cvars; the module must be loaded and not started yet. Both objects outlive this one.
     Replayer(const Recording& recording, HeadlessEngine& engine, const Options& options);
@@ -43,6 +45,7 @@ class Replayer {
     void prepareCinematics(const Recording::Frame& frame);
 
     HeadlessEngine& m_engine;
+    std::function<void()> m_onStarted;
     std::set<std::string> m_fixedCvars;                        ///< lower-case names that the recording doesn't change
     std::unordered_map<int, int> m_models, m_skins, m_shaders; ///< recording's number -> module's handle
     float m_scaleX = 1, m_scaleY = 1;

@@ -50,7 +50,8 @@ void openFile() {
     static char failure[1024];
     failure[0] = 0;
     try {
-        recording.recorder = new Recorder(path);
+        const char* name = std::getenv(kRecordName);
+        recording.recorder = new Recorder(path, name ? name : path);
         const uint32_t first = numberFrom(kRecordFirst), count = numberFrom(kRecordCount);
         recording.recorder->writer.keepStretch(first, count);
         recording.recorder->lastFrame = count > 0 ? first + count : 0;

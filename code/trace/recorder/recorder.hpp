@@ -30,8 +30,8 @@ class HandleNumbers {
 };
 
 struct Recorder {
-    explicit Recorder(const char* path)
-        : writer(path) {}
+    Recorder(const char* path, const char* name)
+        : writer(path, name) {}
 
     RecordingWriter writer;
     HandleNumbers models, skins, shaders;

@@ -110,6 +110,9 @@ void watchFrameEnded() {
     message.wallMs = std::chrono::duration<double, std::milli>(Clock::now() - watch->begin).count();
     const cvar_t* stats = recording.engine.Cvar_Get("q3rt_stats", "", 0);
     sendMessage(message, stats ? stats->string : "");
+    // By the first frame of the world engine, game and renderer have declared theirs.
+    if (watch->frame == 1 && numberFrom(kWatchCvars) != 0)
+        recording.engine.Cmd_ExecuteText(Q3_EXEC_APPEND, "cvarlist\n");
     if (watch->frame == watch->lastFrame) recording.engine.Cmd_ExecuteText(Q3_EXEC_APPEND, "quit\n");
 }
 

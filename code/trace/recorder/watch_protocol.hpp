@@ -25,9 +25,11 @@ inline constexpr const char* kRecordingEnded = "recording ended: ";
 inline constexpr const char* kWatchSocket = "Q3RT_WATCH_FD";
 inline constexpr const char* kWatchEvery = "Q3RT_WATCH_EVERY";   ///< a picture every so many world frames
 inline constexpr const char* kWatchStats = "Q3RT_WATCH_STATS";   ///< 1: the module is asked for its statistics
+inline constexpr const char* kWatchCvars = "Q3RT_WATCH_CVARS";   ///< 1: cvars are listed on the engine's console
 inline constexpr const char* kWatchFrames = "Q3RT_WATCH_FRAMES"; ///< the engine is told to quit after so many
 inline constexpr const char* kRecordInner = "Q3RT_RECORD_INNER"; ///< module to stand around
 inline constexpr const char* kRecordOut = "Q3RT_RECORD_OUT";     ///< recording to write
+inline constexpr const char* kRecordName = "Q3RT_RECORD_NAME";   ///< what messages call it, if not so
 inline constexpr const char* kRecordFirst = "Q3RT_RECORD_FIRST"; ///< first world frame to keep
 inline constexpr const char* kRecordCount = "Q3RT_RECORD_COUNT"; ///< number of world frames to keep
 
