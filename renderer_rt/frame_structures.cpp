@@ -41,7 +41,7 @@ AccelerationStructure& FrameStructures::takeBottom(const TriangleGeometry& geome
         largest.triangleCount = capacity;
         largest.vertexCount = 3 * capacity;
         bucket.structures.push_back(std::make_unique<AccelerationStructure>(AccelerationStructure::makeBottom(
-            m_device, {&largest, 1}, {.preference = BuildPreference::FastBuild, .name = "moving"})));
+            m_device, largest, {.preference = BuildPreference::FastBuild, .name = "moving"})));
         ++m_created;
     }
     return *bucket.structures[bucket.used++];

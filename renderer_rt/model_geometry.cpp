@@ -80,7 +80,7 @@ void ModelGeometry::fill(ModelPart& part, SurfaceClass surfaceClass, std::span<c
                      .triangleCount = triangleCount,
                      .opaque = isOpaqueClass(surfaceClass)};
     if (usesStructures(m_backend))
-        part.structure = AccelerationStructure::makeBottom(m_device, {&part.geometry, 1},
+        part.structure = AccelerationStructure::makeBottom(m_device, part.geometry,
                                                            {.preference = BuildPreference::FastTrace, .name = "model"});
 }
 

@@ -112,20 +112,22 @@ void StaticGeometry::buildTrees(Device& device, Uploader& uploader, const World&
 }
 
 void StaticGeometry::buildStructures(Device& device, uint32_t vertexCount) {
+    std::vector<BottomBuild> builds;
+    for (StaticPart& part : m_parts) {
+        const TriangleGeometry triangles{.vertices = m_vertices.address(),
+                                         .vertexStride = sizeof(Vertex),
+                                         .vertexCount = vertexCount,
+                                         .indices = part.indices,
+                                         .triangleCount = part.triangleCount,
+                                         .opaque = isOpaqueClass(part.surfaceClass)};
+        part.structure = AccelerationStructure::makeBottom(device, triangles,
+                                                           {.preference = BuildPreference::FastTrace, .name = "world"});
+        builds.push_back({&part.structure, triangles});
+    }
     AccelerationScratch scratch(device);
     device.submitAndWait([&](VkCommandBuffer commands) {
         recordBuildInputBarrier(commands);
-        for (StaticPart& part : m_parts) {
-            const TriangleGeometry geometry{.vertices = m_vertices.address(),
-                                            .vertexStride = sizeof(Vertex),
-                                            .vertexCount = vertexCount,
-                                            .indices = part.indices,
-                                            .triangleCount = part.triangleCount,
-                                            .opaque = isOpaqueClass(part.surfaceClass)};
-            part.structure = AccelerationStructure::makeBottom(
-                device, {&geometry, 1}, {.preference = BuildPreference::FastTrace, .name = "world"});
-            part.structure.recordBuild(commands, scratch, {&geometry, 1});
-        }
+        recordBuilds(commands, scratch, builds);
         recordBuildBarrier(device, commands);
     });
 }

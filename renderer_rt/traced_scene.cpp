@@ -180,7 +180,7 @@ size_t TracedScene::makeMovingTree(const ViewGeometry& geometry, size_t first, T
         instance.masks[m_treeParts.size()] = sources[i].mask;
         m_treeParts.push_back(dynamicTreePart(geometry, sources[i].dynamicPart));
         m_treeKey.push_back(static_cast<uint64_t>(sources[i].surfaceClass));
-        for (const uint32_t s : m_tables.parts[static_cast<size_t>(sources[i].dynamicPart)].surfaces) {
+        for (const uint32_t s : m_tables.surfacesOf(m_tables.parts[static_cast<size_t>(sources[i].dynamicPart)])) {
             m_treeKey.push_back(sourceKey(geometry.surfaces[s]));
             known &= m_treeKey.back() != 0;
         }
@@ -275,8 +275,7 @@ void TracedScene::finish(const TracedView& view) { std::memcpy(view.frameSlice.m
 void TracedScene::recordBuilds(VkCommandBuffer commands, const TracedView& view) {
     AccelerationScratch& scratch = m_structures.scratch();
     recordBuildInputBarrier(commands);
-    for (const TracedView::Build& build : view.builds)
-        build.structure->recordBuild(commands, scratch, {&build.geometry, 1});
+    q3rt::recordBuilds(commands, scratch, view.builds);
     recordBuildBarrier(m_context.device(), commands);
     view.top->recordBuildTop(commands, scratch, view.topInstances.address, view.instanceCount);
     recordBuildBarrier(m_context.device(), commands);

@@ -19,11 +19,7 @@ struct TracedView {
     AccelerationStructure* top = nullptr; ///< null: the back end has its own trees
     BufferSlice topInstances;
     uint32_t instanceCount = 0;
-    struct Build {
-        AccelerationStructure* structure;
-        TriangleGeometry geometry;
-    };
-    std::vector<Build> builds;
+    std::vector<BottomBuild> builds;
     bool stagedCover = false; ///< some surface's holes take its stages to tell
     uint32_t movingTriangleCount = 0;
     ClassCounts counts{};

@@ -1,7 +1,6 @@
 #include "renderer_rt/traced_view.hpp"
 
 #include <algorithm>
-#include <map>
 #include <tuple>
 
 #include "renderer_rt/triangle_sort.hpp"
@@ -40,6 +39,7 @@ void ViewTables::clear() {
     entities.clear();
     indices.clear();
     surfaceOfTriangle.clear();
+    surfacesOfParts.clear();
     parts.clear();
     sources.clear();
     skies.clear();
@@ -144,7 +144,8 @@ void ViewTableBuilder::addStaticParts(const World& world, const StaticGeometry& 
 
 void ViewTableBuilder::appendTriangles(const ViewGeometry& geometry, DynamicPart& part, ViewTables& out) {
     uint32_t low = ~0u, high = 0;
-    for (const uint32_t s : part.surfaces) {
+    const std::span<const uint32_t> surfaces = out.surfacesOf(part);
+    for (const uint32_t s : surfaces) {
         const EntitySurface& surface = geometry.surfaces[s];
         low = std::min(low, surface.firstVertex);
         high = std::max(high, surface.firstVertex + surface.vertexCount);
@@ -152,8 +153,8 @@ void ViewTableBuilder::appendTriangles(const ViewGeometry& geometry, DynamicPart
     part.firstVertex = low;
     part.vertexCount = high - low;
     part.firstIndex = static_cast<uint32_t>(out.indices.size());
-    for (size_t i = 0; i < part.surfaces.size(); ++i) {
-        const EntitySurface& surface = geometry.surfaces[part.surfaces[i]];
+    for (size_t i = 0; i < surfaces.size(); ++i) {
+        const EntitySurface& surface = geometry.surfaces[surfaces[i]];
         const std::span<const uint32_t> indices(geometry.indices.data() + surface.firstIndex, surface.indexCount);
         for (const uint32_t triangle : m_orders.find(sourceKey(surface), geometry.vertices, indices)) {
             for (size_t corner = 0; corner < 3; ++corner)
@@ -183,54 +184,64 @@ void ViewTableBuilder::addModelPart(const ViewGeometry& geometry, const EntitySu
     count(out, StructureClass::StaticEntity, part.geometry.triangleCount);
 }
 
-void ViewTableBuilder::addDynamicParts(const World* world, const ViewGeometry& geometry, ModelGeometry& models,
-                                       ViewTables& out) {
-    std::map<std::tuple<uint32_t, SurfaceClass, bool, bool>, DynamicPart> groups;
+void ViewTableBuilder::sortMovingSurfaces(const ViewGeometry& geometry, ModelGeometry& models, ViewTables& out) {
+    m_moving.clear();
     for (uint32_t s = 0; s < geometry.surfaces.size(); ++s) {
         const EntitySurface& surface = geometry.surfaces[s];
         const Material& material = m_materials.drawn(surface.material);
         const auto surfaceClass = classifySurface(material);
         if (!surfaceClass || surface.indexCount < 3) continue;
-        if (surface.source && surface.singleFrame && !surface.deformed) {
+        if (surface.source && surface.singleFrame && !surface.deformed)
             addModelPart(geometry, surface, *surfaceClass, models, out);
-            continue;
-        }
-        // A sprite turns with the eye: light must not depend on who looks.
-        const bool castsShadow = !deformsWithView(material);
-        DynamicPart& part = groups[{surface.entity, *surfaceClass, surface.isPoly, castsShadow}];
-        part.entity = surface.entity;
-        part.isPoly = surface.isPoly;
-        part.castsShadow = castsShadow;
-        part.surfaceClass = *surfaceClass;
-        part.surfaces.push_back(s);
+        else // A sprite turns with the eye: light must not depend on who looks.
+            m_moving.push_back({{surface.entity, *surfaceClass, surface.isPoly, !deformsWithView(material)}, s});
     }
-    for (auto& [key, part] : groups) {
-        const EntityRecord& record = geometry.entities[part.entity];
-        Visibility visibility = visibilityOf(record.flags);
-        visibility.shadow &= part.castsShadow;
-        const uint8_t mask = instanceMask(part.surfaceClass, visibility);
-        if (mask == 0) continue;
-        RtInstance instance{};
-        instance.firstSurface = static_cast<uint32_t>(out.surfaces.size());
-        instance.entity = part.entity;
-        for (const uint32_t s : part.surfaces) {
-            const EntitySurface& surface = geometry.surfaces[s];
-            out.surfaces.push_back(makeSurface(surface.material, part.surfaceClass, surface.fog, record.stage, out));
-            out.surfaces.back().portal =
-                m_portals.findMoving(world, geometry, surface, m_materials.drawn(surface.material));
-            count(out, dynamicClass(surface), surface.indexCount / 3);
-        }
-        appendTriangles(geometry, part, out);
-        part.structureClass = dynamicClass(geometry.surfaces[part.surfaces[0]]);
-        instance.vertices = part.firstVertex * sizeof(Vertex);
-        instance.indices = part.firstIndex * sizeof(uint32_t);
-        instance.surfaceOfTriangle = part.firstIndex / 3 * sizeof(uint32_t);
-        out.instances.push_back(instance);
-        out.sources.push_back({.dynamicPart = static_cast<int>(out.parts.size()),
-                               .entity = part.entity,
-                               .surfaceClass = part.surfaceClass,
-                               .mask = mask});
-        out.parts.push_back(std::move(part));
+    std::ranges::sort(m_moving);
+}
+
+void ViewTableBuilder::addDynamicPart(const World* world, const ViewGeometry& geometry,
+                                      std::span<const MovingSurface> moving, ViewTables& out) {
+    DynamicPart part;
+    std::tie(part.entity, part.surfaceClass, part.isPoly, part.castsShadow) = moving.front().group;
+    const EntityRecord& record = geometry.entities[part.entity];
+    Visibility visibility = visibilityOf(record.flags);
+    visibility.shadow &= part.castsShadow;
+    const uint8_t mask = instanceMask(part.surfaceClass, visibility);
+    if (mask == 0) return;
+    part.firstSurface = static_cast<uint32_t>(out.surfacesOfParts.size());
+    part.surfaceCount = static_cast<uint32_t>(moving.size());
+    RtInstance instance{};
+    instance.firstSurface = static_cast<uint32_t>(out.surfaces.size());
+    instance.entity = part.entity;
+    for (const MovingSurface& one : moving) {
+        const EntitySurface& surface = geometry.surfaces[one.surface];
+        out.surfacesOfParts.push_back(one.surface);
+        out.surfaces.push_back(makeSurface(surface.material, part.surfaceClass, surface.fog, record.stage, out));
+        out.surfaces.back().portal =
+            m_portals.findMoving(world, geometry, surface, m_materials.drawn(surface.material));
+        count(out, dynamicClass(surface), surface.indexCount / 3);
+    }
+    appendTriangles(geometry, part, out);
+    part.structureClass = dynamicClass(geometry.surfaces[moving.front().surface]);
+    instance.vertices = part.firstVertex * sizeof(Vertex);
+    instance.indices = part.firstIndex * sizeof(uint32_t);
+    instance.surfaceOfTriangle = part.firstIndex / 3 * sizeof(uint32_t);
+    out.instances.push_back(instance);
+    out.sources.push_back({.dynamicPart = static_cast<int>(out.parts.size()),
+                           .entity = part.entity,
+                           .surfaceClass = part.surfaceClass,
+                           .mask = mask});
+    out.parts.push_back(part);
+}
+
+void ViewTableBuilder::addDynamicParts(const World* world, const ViewGeometry& geometry, ModelGeometry& models,
+                                       ViewTables& out) {
+    sortMovingSurfaces(geometry, models, out);
+    for (auto first = m_moving.begin(); first != m_moving.end();) {
+        const auto end = std::find_if(first, m_moving.end(),
+                                      [&](const MovingSurface& other) { return other.group != first->group; });
+        addDynamicPart(world, geometry, {first, end}, out);
+        first = end;
     }
 }
 

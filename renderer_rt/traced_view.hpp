@@ -1,6 +1,9 @@
 #pragma once
 // One view's scene as tables and instances, on the CPU: pure but for the structures that instances point to.
 
+#include <compare>
+#include <span>
+#include <tuple>
 #include <vector>
 
 #include "gpu/acceleration_structure.hpp"
@@ -20,9 +23,9 @@ struct DynamicPart {
     StructureClass structureClass = StructureClass::DynamicEntity;
     bool isPoly = false; ///< scene polys are apart: they come and go, the world's deformed surfaces stay
     bool castsShadow = true;
-    std::vector<uint32_t> surfaces;             ///< in ViewGeometry::surfaces
-    uint32_t firstIndex = 0, triangleCount = 0; ///< in ViewTables::indices; relative to firstVertex
-    uint32_t firstVertex = 0, vertexCount = 0;  ///< in ViewGeometry::vertices
+    uint32_t firstSurface = 0, surfaceCount = 0; ///< in ViewTables::surfacesOfParts
+    uint32_t firstIndex = 0, triangleCount = 0;  ///< in ViewTables::indices; relative to firstVertex
+    uint32_t firstVertex = 0, vertexCount = 0;   ///< in ViewGeometry::vertices
 };
 
 struct ViewTables {
@@ -31,6 +34,7 @@ struct ViewTables {
     std::vector<RtEntity> entities;
     std::vector<uint32_t> indices;           ///< of dynamic parts
     std::vector<uint32_t> surfaceOfTriangle; ///< of dynamic parts, parallel to indices / 3
+    std::vector<uint32_t> surfacesOfParts;   ///< in ViewGeometry::surfaces
     std::vector<DynamicPart> parts;
     /// What instance i is made of: one of the three.
     struct Source {
@@ -46,6 +50,9 @@ struct ViewTables {
     bool hasLayers = false, hasNear = false, hasStagedCover = false;
     uint32_t layerOrderCount = 0;
     ClassCounts counts{};
+    std::span<const uint32_t> surfacesOf(const DynamicPart& part) const {
+        return std::span(surfacesOfParts).subspan(part.firstSurface, part.surfaceCount);
+    }
     void clear();
 };
 
@@ -79,6 +86,16 @@ class ViewTableBuilder {
   private:
     void addStaticParts(const World& world, const StaticGeometry& statics, const ViewGeometry& geometry,
                         uint32_t entity, int model, ViewTables& out);
+    /// A surface of what moves; sorted, those of a part follow one another.
+    struct MovingSurface {
+        std::tuple<uint32_t, SurfaceClass, bool, bool> group; ///< entity, class, scene poly, casts shadows
+        uint32_t surface = 0;                                 ///< in ViewGeometry::surfaces
+        auto operator<=>(const MovingSurface&) const = default;
+    };
+    /// Fills m_moving; models with a single frame go to `out` at once.
+    void sortMovingSurfaces(const ViewGeometry& geometry, ModelGeometry& models, ViewTables& out);
+    void addDynamicPart(const World* world, const ViewGeometry& geometry, std::span<const MovingSurface> moving,
+                        ViewTables& out);
     void addDynamicParts(const World* world, const ViewGeometry& geometry, ModelGeometry& models, ViewTables& out);
     void addModelPart(const ViewGeometry& geometry, const EntitySurface& surface, SurfaceClass surfaceClass,
                       ModelGeometry& models, ViewTables& out);
@@ -91,6 +108,7 @@ class ViewTableBuilder {
     const MaterialLibrary& m_materials;
     StageTable& m_stages;
     TriangleOrderCache m_orders;
+    std::vector<MovingSurface> m_moving;
     std::vector<std::pair<uint32_t, uint32_t>> m_layers; ///< sort rank, surface table index
     std::vector<std::pair<MaterialId, uint32_t>> m_skies;
     ViewPortals m_portals;

@@ -18,10 +18,10 @@ class KeyHash {
 };
 
 /// Equal keys: corner i of one shape is corner i of the other.
-uint64_t keyOfShape(const DynamicPart& part, const ViewGeometry& geometry) {
+uint64_t keyOfShape(const ViewTables& tables, const DynamicPart& part, const ViewGeometry& geometry) {
     KeyHash hash;
     hash.add(static_cast<uint64_t>(part.surfaceClass));
-    for (const uint32_t s : part.surfaces) {
+    for (const uint32_t s : tables.surfacesOf(part)) {
         const EntitySurface& surface = geometry.surfaces[s];
         hash.add(sourceKey(surface)).add(surface.firstVertex - part.firstVertex);
         hash.add(surface.vertexCount).add(surface.indexCount);
@@ -75,12 +75,12 @@ std::vector<InstancePlace> findInstances(const ViewTables& tables, const ViewGeo
             place.key = hash.add(static_cast<uint64_t>(part.surfaceClass)).add(2).value();
             continue;
         }
-        place.key = keyOfShape(part, geometry);
+        place.key = keyOfShape(tables, part, geometry);
         place.changesShape = true;
         place.firstCorner = static_cast<uint32_t>(corners.size());
         for (uint32_t i = 0; i < part.vertexCount; ++i)
             corners.push_back(geometry.vertices[part.firstVertex + i].position);
-        for (const uint32_t s : part.surfaces)
+        for (const uint32_t s : tables.surfacesOf(part))
             place.keepsOrder &= sourceKey(geometry.surfaces[s]) != 0;
     }
     return places;

@@ -26,8 +26,15 @@ struct Key {
     uint32_t item;
 };
 
+/// Fewer keys are sorted faster by comparing them than by clearing and summing the radix sort's counters.
+constexpr size_t kFewKeys = 64;
+
 /// Radix sort, 3 passes of 10 bits; stable, so equal codes keep their input order.
 void sortKeys(std::vector<Key>& keys) {
+    if (keys.size() <= kFewKeys) {
+        std::ranges::sort(keys, {}, [](const Key& key) { return uint64_t{key.code} << 32 | key.item; });
+        return;
+    }
     std::vector<Key> other(keys.size());
     for (uint32_t pass = 0; pass < 3; ++pass) {
         std::array<uint32_t, 1024> start{};

@@ -10,30 +10,20 @@
 namespace q3rt {
 namespace {
 
-/// The Vulkan form of some triangle geometries; pointers inside stay valid as long as this does.
-struct GeometryList {
-    explicit GeometryList(std::span<const TriangleGeometry> triangles) {
-        for (const TriangleGeometry& source : triangles) {
-            VkAccelerationStructureGeometryKHR geometry{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
-            geometry.geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR;
-            geometry.flags = source.opaque ? VK_GEOMETRY_OPAQUE_BIT_KHR : 0;
-            VkAccelerationStructureGeometryTrianglesDataKHR& data = geometry.geometry.triangles;
-            data = {VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_TRIANGLES_DATA_KHR};
-            data.vertexFormat = VK_FORMAT_R32G32B32_SFLOAT;
-            data.vertexData.deviceAddress = source.vertices;
-            data.vertexStride = source.vertexStride;
-            data.maxVertex = source.vertexCount ? source.vertexCount - 1 : 0;
-            data.indexType = source.indexed ? VK_INDEX_TYPE_UINT32 : VK_INDEX_TYPE_NONE_KHR;
-            data.indexData.deviceAddress = source.indices;
-            geometries.push_back(geometry);
-            ranges.push_back({source.triangleCount, 0, 0, 0});
-            counts.push_back(source.triangleCount);
-        }
-    }
-    std::vector<VkAccelerationStructureGeometryKHR> geometries;
-    std::vector<VkAccelerationStructureBuildRangeInfoKHR> ranges;
-    std::vector<uint32_t> counts;
-};
+VkAccelerationStructureGeometryKHR triangleGeometry(const TriangleGeometry& source) {
+    VkAccelerationStructureGeometryKHR geometry{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
+    geometry.geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR;
+    geometry.flags = source.opaque ? VK_GEOMETRY_OPAQUE_BIT_KHR : 0;
+    VkAccelerationStructureGeometryTrianglesDataKHR& data = geometry.geometry.triangles;
+    data = {VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_TRIANGLES_DATA_KHR};
+    data.vertexFormat = VK_FORMAT_R32G32B32_SFLOAT;
+    data.vertexData.deviceAddress = source.vertices;
+    data.vertexStride = source.vertexStride;
+    data.maxVertex = source.vertexCount ? source.vertexCount - 1 : 0;
+    data.indexType = source.indexed ? VK_INDEX_TYPE_UINT32 : VK_INDEX_TYPE_NONE_KHR;
+    data.indexData.deviceAddress = source.indices;
+    return geometry;
+}
 
 VkAccelerationStructureGeometryKHR instanceGeometry(VkDeviceAddress instances) {
     VkAccelerationStructureGeometryKHR geometry{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
@@ -43,8 +33,9 @@ VkAccelerationStructureGeometryKHR instanceGeometry(VkDeviceAddress instances) {
     return geometry;
 }
 
+/// The geometry stays where it is as long as this is used.
 VkAccelerationStructureBuildGeometryInfoKHR buildInfo(const AccelerationInfo& info, VkAccelerationStructureTypeKHR type,
-                                                      std::span<const VkAccelerationStructureGeometryKHR> geometries) {
+                                                      const VkAccelerationStructureGeometryKHR& geometry) {
     VkAccelerationStructureBuildGeometryInfoKHR build{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR};
     build.type = type;
     build.flags = info.preference == BuildPreference::FastTrace
@@ -53,16 +44,16 @@ VkAccelerationStructureBuildGeometryInfoKHR buildInfo(const AccelerationInfo& in
     if (info.allowUpdate) build.flags |= VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_UPDATE_BIT_KHR;
     if (info.allowCompaction) build.flags |= VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_COMPACTION_BIT_KHR;
     build.mode = VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR;
-    build.geometryCount = static_cast<uint32_t>(geometries.size());
-    build.pGeometries = geometries.data();
+    build.geometryCount = 1;
+    build.pGeometries = &geometry;
     return build;
 }
 
 VkAccelerationStructureBuildSizesInfoKHR
-measure(Device& device, const VkAccelerationStructureBuildGeometryInfoKHR& build, const uint32_t* counts) {
+measure(Device& device, const VkAccelerationStructureBuildGeometryInfoKHR& build, uint32_t count) {
     VkAccelerationStructureBuildSizesInfoKHR sizes{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
     vkGetAccelerationStructureBuildSizesKHR(device.handle(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &build,
-                                            counts, &sizes);
+                                            &count, &sizes);
     return sizes;
 }
 
@@ -99,14 +90,14 @@ VkDeviceAddress AccelerationScratch::take(VkDeviceSize size) {
     return address;
 }
 
-AccelerationStructure AccelerationStructure::makeBottom(Device& device, std::span<const TriangleGeometry> geometries,
+AccelerationStructure AccelerationStructure::makeBottom(Device& device, const TriangleGeometry& triangles,
                                                         const AccelerationInfo& info) {
     AccelerationStructure made;
     made.m_device = &device;
     made.m_info = info;
-    const GeometryList list(geometries);
-    const auto build = buildInfo(info, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, list.geometries);
-    const auto sizes = measure(device, build, list.counts.data());
+    const VkAccelerationStructureGeometryKHR geometry = triangleGeometry(triangles);
+    const auto build = buildInfo(info, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, geometry);
+    const auto sizes = measure(device, build, triangles.triangleCount);
     made.m_buildScratch = sizes.buildScratchSize;
     made.m_updateScratch = sizes.updateScratchSize;
     made.create(device, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, sizes.accelerationStructureSize);
@@ -120,8 +111,8 @@ AccelerationStructure AccelerationStructure::makeTop(Device& device, uint32_t ma
     made.m_info = info;
     made.m_maxInstances = maxInstances;
     const VkAccelerationStructureGeometryKHR geometry = instanceGeometry(0);
-    const auto build = buildInfo(info, VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, {&geometry, 1});
-    const auto sizes = measure(device, build, &maxInstances);
+    const auto build = buildInfo(info, VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, geometry);
+    const auto sizes = measure(device, build, maxInstances);
     made.m_buildScratch = sizes.buildScratchSize;
     made.m_updateScratch = sizes.updateScratchSize;
     made.create(device, VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, sizes.accelerationStructureSize);
@@ -175,30 +166,38 @@ void AccelerationStructure::release() {
     m_address = 0;
 }
 
-void AccelerationStructure::recordTriangles(VkCommandBuffer commands, AccelerationScratch& scratch,
-                                            std::span<const TriangleGeometry> geometries,
-                                            VkBuildAccelerationStructureModeKHR mode) {
-    const GeometryList list(geometries);
-    auto build = buildInfo(m_info, m_type, list.geometries);
-    const bool update = mode == VK_BUILD_ACCELERATION_STRUCTURE_MODE_UPDATE_KHR;
-    build.mode = mode;
-    build.srcAccelerationStructure = update ? m_handle : VK_NULL_HANDLE;
-    build.dstAccelerationStructure = m_handle;
-    build.scratchData.deviceAddress = scratch.take(update ? m_updateScratch : m_buildScratch);
-    const VkAccelerationStructureBuildRangeInfoKHR* ranges = list.ranges.data();
-    vkCmdBuildAccelerationStructuresKHR(commands, 1, &build, &ranges);
-}
-
-void AccelerationStructure::recordBuild(VkCommandBuffer commands, AccelerationScratch& scratch,
-                                        std::span<const TriangleGeometry> geometries) {
-    recordTriangles(commands, scratch, geometries, VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR);
+void recordBuilds(VkCommandBuffer commands, AccelerationScratch& scratch, std::span<const BottomBuild> builds) {
+    if (builds.empty()) return;
+    std::vector<VkAccelerationStructureGeometryKHR> geometries;
+    std::vector<VkAccelerationStructureBuildRangeInfoKHR> ranges;
+    for (const BottomBuild& build : builds) {
+        geometries.push_back(triangleGeometry(build.triangles));
+        ranges.push_back({build.triangles.triangleCount, 0, 0, 0});
+    }
+    std::vector<VkAccelerationStructureBuildGeometryInfoKHR> infos;
+    std::vector<const VkAccelerationStructureBuildRangeInfoKHR*> rangeOf;
+    for (size_t i = 0; i < builds.size(); ++i) {
+        const AccelerationStructure& structure = *builds[i].structure;
+        auto& info = infos.emplace_back(buildInfo(structure.m_info, structure.m_type, geometries[i]));
+        info.dstAccelerationStructure = structure.m_handle;
+        info.scratchData.deviceAddress = scratch.take(structure.m_buildScratch);
+        rangeOf.push_back(&ranges[i]);
+    }
+    vkCmdBuildAccelerationStructuresKHR(commands, static_cast<uint32_t>(infos.size()), infos.data(), rangeOf.data());
 }
 
 void AccelerationStructure::recordUpdate(VkCommandBuffer commands, AccelerationScratch& scratch,
-                                         std::span<const TriangleGeometry> geometries) {
+                                         const TriangleGeometry& triangles) {
     if (!m_info.allowUpdate)
         throw UsageError(formatText("acceleration structure \"%s\" was made without allowUpdate", m_info.name.c_str()));
-    recordTriangles(commands, scratch, geometries, VK_BUILD_ACCELERATION_STRUCTURE_MODE_UPDATE_KHR);
+    const VkAccelerationStructureGeometryKHR geometry = triangleGeometry(triangles);
+    auto build = buildInfo(m_info, m_type, geometry);
+    build.mode = VK_BUILD_ACCELERATION_STRUCTURE_MODE_UPDATE_KHR;
+    build.srcAccelerationStructure = build.dstAccelerationStructure = m_handle;
+    build.scratchData.deviceAddress = scratch.take(m_updateScratch);
+    const VkAccelerationStructureBuildRangeInfoKHR range{triangles.triangleCount, 0, 0, 0};
+    const VkAccelerationStructureBuildRangeInfoKHR* ranges = &range;
+    vkCmdBuildAccelerationStructuresKHR(commands, 1, &build, &ranges);
 }
 
 void AccelerationStructure::recordBuildTop(VkCommandBuffer commands, AccelerationScratch& scratch,
@@ -207,7 +206,7 @@ void AccelerationStructure::recordBuildTop(VkCommandBuffer commands, Acceleratio
         throw UsageError(formatText("acceleration structure \"%s\" holds %u instances, %u were given",
                                     m_info.name.c_str(), m_maxInstances, instanceCount));
     const VkAccelerationStructureGeometryKHR geometry = instanceGeometry(instances);
-    auto build = buildInfo(m_info, m_type, {&geometry, 1});
+    auto build = buildInfo(m_info, m_type, geometry);
     build.dstAccelerationStructure = m_handle;
     build.scratchData.deviceAddress = scratch.take(m_buildScratch);
     const VkAccelerationStructureBuildRangeInfoKHR range{instanceCount, 0, 0, 0};

@@ -10,7 +10,7 @@
 
 namespace q3rt {
 
-/// Triangles of one geometry: positions are the first 12 bytes (3 floats) of each vertex.
+/// Positions are the first 12 bytes (3 floats) of each vertex.
 struct TriangleGeometry {
     VkDeviceAddress vertices = 0;
     VkDeviceSize vertexStride = 12; // bytes
@@ -46,11 +46,19 @@ class AccelerationScratch {
     VkDeviceSize m_used = 0;
 };
 
+class AccelerationStructure;
+
+/// A bottom-level structure and what it becomes.
+struct BottomBuild {
+    AccelerationStructure* structure;
+    TriangleGeometry triangles;
+};
+
 class AccelerationStructure {
   public:
     AccelerationStructure() = default;
     /// Reserves memory for these triangles. Addresses may be 0 here (only counts matter) and change at each build.
-    static AccelerationStructure makeBottom(Device& device, std::span<const TriangleGeometry> geometries,
+    static AccelerationStructure makeBottom(Device& device, const TriangleGeometry& triangles,
                                             const AccelerationInfo& info);
     /// Reserves memory for up to `maxInstances` VkAccelerationStructureInstanceKHR.
     static AccelerationStructure makeTop(Device& device, uint32_t maxInstances, const AccelerationInfo& info);
@@ -65,21 +73,17 @@ class AccelerationStructure {
     VkDeviceSize size() const { return m_buffer.size(); }
     uint32_t maxInstances() const { return m_maxInstances; }
 
-    /// Records a build of a bottom-level structure. No barrier: batch many, then recordBuildBarrier() once.
-    void recordBuild(VkCommandBuffer commands, AccelerationScratch& scratch,
-                     std::span<const TriangleGeometry> geometries);
     /// Refit: same counts and indices, moved vertices. Needs allowUpdate and a build before.
-    void recordUpdate(VkCommandBuffer commands, AccelerationScratch& scratch,
-                      std::span<const TriangleGeometry> geometries);
+    void recordUpdate(VkCommandBuffer commands, AccelerationScratch& scratch, const TriangleGeometry& triangles);
     /// Records a build of a top-level structure; `instances` is 16-byte aligned.
     void recordBuildTop(VkCommandBuffer commands, AccelerationScratch& scratch, VkDeviceAddress instances,
                         uint32_t instanceCount);
 
   private:
     friend void compactStructures(Device& device, std::span<AccelerationStructure* const> structures);
+    friend void recordBuilds(VkCommandBuffer commands, AccelerationScratch& scratch,
+                             std::span<const BottomBuild> builds);
     void create(Device& device, VkAccelerationStructureTypeKHR type, VkDeviceSize size);
-    void recordTriangles(VkCommandBuffer commands, AccelerationScratch& scratch,
-                         std::span<const TriangleGeometry> geometries, VkBuildAccelerationStructureModeKHR mode);
     void release();
 
     Device* m_device = nullptr;
@@ -93,6 +97,9 @@ class AccelerationStructure {
     uint32_t m_maxInstances = 0;
 };
 
+/// Records builds in one command: a driver spreads small ones over the device, and reads the command once (378 a frame
+/// one by one took 4 ms of the processor). No barrier: recordBuildBarrier() follows.
+void recordBuilds(VkCommandBuffer commands, AccelerationScratch& scratch, std::span<const BottomBuild> builds);
 /// Builds -> builds and traces: before a top-level build that uses fresh bottom levels, and before the first trace.
 void recordBuildBarrier(Device& device, VkCommandBuffer commands);
 /// Shader and transfer writes of vertices or instances -> builds, and traces of the last frame -> builds over them.

@@ -1,5 +1,6 @@
 // Acceleration structures and a ray-tracing pipeline on one triangle.
 
+#include <array>
 #include <cstring>
 
 #include "gpu/acceleration_structure.hpp"
@@ -85,7 +86,7 @@ TEST_F(RayTest, RaysHitATriangleAlsoAfterUpdateAndCompaction) {
     Triangle triangle(device()); // at z = -1: 2 from the rays' origin
     const TriangleGeometry& geometry = triangle.geometry;
     AccelerationStructure bottom = AccelerationStructure::makeBottom(
-        device(), {&geometry, 1}, {.allowUpdate = true, .allowCompaction = true, .name = "triangle"});
+        device(), geometry, {.allowUpdate = true, .allowCompaction = true, .name = "triangle"});
     AccelerationStructure top = AccelerationStructure::makeTop(device(), 4, {.name = "scene"});
     AccelerationScratch scratch(device());
     const Buffer instances(
@@ -98,7 +99,7 @@ TEST_F(RayTest, RaysHitATriangleAlsoAfterUpdateAndCompaction) {
         recordBuildBarrier(device(), commands);
     };
     device().submitAndWait([&](VkCommandBuffer commands) {
-        bottom.recordBuild(commands, scratch, {&geometry, 1});
+        recordBuilds(commands, scratch, std::array{BottomBuild{&bottom, geometry}});
         recordBuildBarrier(device(), commands);
         buildTop(commands);
     });
@@ -121,7 +122,7 @@ TEST_F(RayTest, RaysHitATriangleAlsoAfterUpdateAndCompaction) {
     triangle.moveTo(device(), -2);
     device().submitAndWait([&](VkCommandBuffer commands) {
         recordBuildInputBarrier(commands);
-        bottom.recordUpdate(commands, scratch, {&geometry, 1});
+        bottom.recordUpdate(commands, scratch, geometry);
         recordBuildBarrier(device(), commands);
         buildTop(commands);
     });

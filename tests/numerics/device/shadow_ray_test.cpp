@@ -1,6 +1,7 @@
 // Shadow rays of a map moved far from the origin, and of the map as a rotated instance, traced on the device by every
 // back end that it has.
 
+#include <array>
 #include <cstring>
 
 #include "gpu/acceleration_structure.hpp"
@@ -50,14 +51,14 @@ DriverScene buildDriverScene(Device& device, const PlacedMap& map) {
                                     .vertexCount = static_cast<uint32_t>(map.corners.size()),
                                     .indexed = false,
                                     .triangleCount = static_cast<uint32_t>(map.corners.size() / 3)};
-    scene.bottom = AccelerationStructure::makeBottom(device, {&geometry, 1}, {.name = "map"});
+    scene.bottom = AccelerationStructure::makeBottom(device, geometry, {.name = "map"});
     scene.top = AccelerationStructure::makeTop(device, 1, {.name = "scene"});
     float rows[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
     if (map.placement.rotation) std::memcpy(rows, map.placement.worldFromModel, sizeof(rows));
     scene.instances = upload(device, std::vector{makeInstance(scene.bottom, rows, 0, 0xff, 0, 0)});
     AccelerationScratch scratch(device);
     device.submitAndWait([&](VkCommandBuffer commands) {
-        scene.bottom.recordBuild(commands, scratch, {&geometry, 1});
+        recordBuilds(commands, scratch, std::array{BottomBuild{&scene.bottom, geometry}});
         recordBuildBarrier(device, commands);
         scene.top.recordBuildTop(commands, scratch, scene.instances.address(), 1);
         recordBuildBarrier(device, commands);
@@ -148,12 +149,11 @@ class DeviceShadowRays : public GpuTest {
             });
             return;
         }
-        const RayTracingPipeline pipeline(device(),
-                                          {.name = "shadow rays",
-                                           .rayGeneration = {shaders::shaders_shadow_rays_rgen},
-                                           .misses = {{shaders::trace_record_rmiss}},
-                                           .hitGroups = {{.closestHit = {shaders::trace_record_rchit}}},
-                                           .interface = interface});
+        const RayTracingPipeline pipeline(device(), {.name = "shadow rays",
+                                                     .rayGeneration = {shaders::shaders_shadow_rays_rgen},
+                                                     .misses = {{shaders::trace_record_rmiss}},
+                                                     .hitGroups = {{.closestHit = {shaders::trace_record_rchit}}},
+                                                     .interface = interface});
         device().submitAndWait([&](VkCommandBuffer commands) {
             record(pipeline, commands);
             pipeline.trace(commands, push.count);
