@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "math/lanes.hpp"
 #include "scene/material.hpp"
 #include "shaders/shared/vertex.h"
 
@@ -32,14 +33,9 @@ class TriangleCuller {
               std::vector<uint32_t>* occluders = nullptr);
 
   private:
-    struct ScreenVertex {
-        vec2 px;
-        uint32_t outside; ///< a bit for each side of the view, and kUnknown
-    };
-    static ScreenVertex project(const TriangleView& view, const vec3& position);
-    static bool large(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c);
-    static bool shows(const TriangleView& view, const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c);
-    std::vector<ScreenVertex> m_screen;
+    void project(const TriangleView& view, std::span<const Vertex> vertices);
+    /// Of each vertex in the span of the indices: x, y in pixels, and where it is outside as the bits of an integer.
+    std::vector<Float4> m_screen;
 };
 
 } // namespace q3rt

@@ -1,14 +1,10 @@
 #pragma once
 // A box in two SIMD registers for the builders' inner loops; the fourth lane is unused.
 
+#include "math/lanes.hpp"
 #include "math/vector.hpp"
 
 namespace q3rt {
-
-using Float4 = float __attribute__((vector_size(16)));
-
-inline Float4 minimum(Float4 a, Float4 b) { return a < b ? a : b; }
-inline Float4 maximum(Float4 a, Float4 b) { return a > b ? a : b; }
 
 struct Box4 {
     Float4 mins{kEmpty, kEmpty, kEmpty, kEmpty};
