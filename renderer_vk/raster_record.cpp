@@ -35,6 +35,8 @@ VkRect2D scissorOf(const ViewDraw& view, VkExtent2D extent) {
     return {{left, top}, {static_cast<uint32_t>(right - left), static_cast<uint32_t>(bottom - top)}};
 }
 
+bool isEmpty(const VkRect2D& area) { return area.extent.width == 0 || area.extent.height == 0; }
+
 /// What of `scissor` lies in a box of the view's pixels.
 VkRect2D partOf(const VkRect2D& scissor, const ViewDraw& view, const PixelBox& box) {
     const glm::ivec2 least(scissor.offset.x, scissor.offset.y);
@@ -70,14 +72,18 @@ void RasterScene::recordViews(PassContext& pass, FrameTargets targets, uint32_t 
     const Attachment depth{.view = pass.view(targets.depth), .stencil = true};
     beginRendering(pass.commands(), pass.extent(targets.color), color, depth);
     bindFrame(pass);
-    for (uint32_t i = 0; i < viewCount; ++i)
-        recordView(pass, m_data.views[firstView + i], pass.extent(targets.color));
+    const auto views = std::span(m_data.views).subspan(firstView, viewCount);
+    for (const ViewDraw& view : views)
+        recordView(pass, view, pass.extent(targets.color));
     vkCmdEndRenderingKHR(pass.commands());
+    for (const ViewDraw& view : views)
+        if (!isEmpty(scissorOf(view, pass.extent(targets.color))))
+            m_flareQueries.answer(pass.commands(), view.firstFlareTest, view.flareTestCount);
 }
 
 void RasterScene::recordView(PassContext& pass, const ViewDraw& view, VkExtent2D extent) {
     const VkRect2D scissor = scissorOf(view, extent);
-    if (scissor.extent.width == 0 || scissor.extent.height == 0) return;
+    if (isEmpty(scissor)) return;
     m_bound.setScissor(pass.commands(), scissor);
     m_bound.range = -1;
     constexpr VkImageAspectFlags kDepthStencil = VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
@@ -196,7 +202,7 @@ void RasterScene::recordLights(VkCommandBuffer commands, const ViewDraw& view, D
         batch.firstIndex = light.firstIndex;
         batch.indexCount = light.indexCount;
         const VkRect2D lit = partOf(all, view, light.box);
-        if (batch.indexCount == 0 || lit.extent.width == 0 || lit.extent.height == 0) continue;
+        if (batch.indexCount == 0 || isEmpty(lit)) continue;
         m_bound.setScissor(commands, lit);
         draw(commands, lightKey(light.additive, view.clipped), constants, batch, material.polygonOffset, material.cull,
              view);

@@ -132,9 +132,10 @@ void RasterScene::beginFrame(const DrawListSettings& listSettings) {
 void RasterScene::readFlareTests(uint32_t slot) {
     m_flareQueries.beginFrame(slot, m_context.ring().frameNumber());
     std::vector<FlareKey>& asked = m_askedFlares[slot];
-    const std::vector<uint8_t>& answers = m_flareQueries.answers();
+    const std::span<const uint32_t> answers = m_flareQueries.answers();
     for (size_t i = 0; m_builder && i < std::min(asked.size(), answers.size()); ++i)
-        m_builder->fades().answer(asked[i], m_flareQueries.answeredFrame(), answers[i] != 0);
+        if (answers[i] != OcclusionQueries::kUnanswered)
+            m_builder->fades().answer(asked[i], m_flareQueries.answeredFrame(), answers[i] != 0);
     asked.clear();
 }
 

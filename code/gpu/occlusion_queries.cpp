@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gpu/device.hpp"
+#include "gpu/readback.hpp"
 
 namespace q3rt {
 
@@ -28,23 +29,15 @@ OcclusionQueries::~OcclusionQueries() {
 void OcclusionQueries::beginFrame(uint32_t slot, uint64_t frame) {
     m_slot = slot;
     Slot& current = m_slots[slot];
-    m_answers.clear();
+    m_answers = current.answers.mappedAs<uint32_t>().first(current.count);
     m_answeredFrame = current.frame;
     current.frame = frame;
-    if (current.count == 0) return;
-    m_results.resize(current.count);
-    const VkResult result =
-        vkGetQueryPoolResults(m_device.handle(), current.pool, 0, current.count, current.count * sizeof(uint32_t),
-                              m_results.data(), sizeof(uint32_t), 0);
     current.count = 0;
-    if (result == VK_NOT_READY) return; // not all of them were drawn
-    vkCheck(result, "vkGetQueryPoolResults");
-    for (const uint32_t passed : m_results)
-        m_answers.push_back(passed != 0 ? 1 : 0);
 }
 
 void OcclusionQueries::reserve(VkCommandBuffer commands, uint32_t count) {
     Slot& slot = m_slots[m_slot];
+    m_answers = {};
     slot.count = count;
     if (count == 0) return;
     if (count > slot.capacity) {
@@ -55,7 +48,12 @@ void OcclusionQueries::reserve(VkCommandBuffer commands, uint32_t count) {
         create.queryCount = slot.capacity;
         slot.pool = VK_NULL_HANDLE;
         vkCheck(vkCreateQueryPool(m_device.handle(), &create, nullptr, &slot.pool), "vkCreateQueryPool");
+        slot.answers = Buffer(m_device, {.size = slot.capacity * sizeof(uint32_t),
+                                         .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                         .domain = MemoryDomain::Readback,
+                                         .name = "occlusion answers"});
     }
+    std::ranges::fill(slot.answers.mappedAs<uint32_t>(), kUnanswered);
     vkCmdResetQueryPool(commands, slot.pool, 0, slot.capacity);
 }
 
@@ -65,6 +63,14 @@ void OcclusionQueries::begin(VkCommandBuffer commands, uint32_t number) {
 
 void OcclusionQueries::end(VkCommandBuffer commands, uint32_t number) {
     vkCmdEndQuery(commands, m_slots[m_slot].pool, number);
+}
+
+void OcclusionQueries::answer(VkCommandBuffer commands, uint32_t first, uint32_t count) {
+    if (count == 0) return;
+    const Slot& slot = m_slots[m_slot];
+    vkCmdCopyQueryPoolResults(commands, slot.pool, first, count, slot.answers.handle(), first * sizeof(uint32_t),
+                              sizeof(uint32_t), VK_QUERY_RESULT_WAIT_BIT);
+    recordHostBarrier(commands);
 }
 
 } // namespace q3rt

@@ -21,6 +21,12 @@ VkBufferImageCopy wholeLevel(VkFormat format, VkExtent2D extent, uint32_t mip, u
     return region;
 }
 
+std::vector<std::byte> copyOut(const Buffer& buffer, VkDeviceSize bytes) {
+    return {buffer.mapped(), buffer.mapped() + bytes};
+}
+
+} // namespace
+
 void recordHostBarrier(VkCommandBuffer commands) {
     VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
     barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
@@ -32,12 +38,6 @@ void recordHostBarrier(VkCommandBuffer commands) {
     dependency.pMemoryBarriers = &barrier;
     vkCmdPipelineBarrier2KHR(commands, &dependency);
 }
-
-std::vector<std::byte> copyOut(const Buffer& buffer, VkDeviceSize bytes) {
-    return {buffer.mapped(), buffer.mapped() + bytes};
-}
-
-} // namespace
 
 std::vector<std::byte> readImage(Device& device, GpuImage& image, uint32_t mip, uint32_t layer) {
     const VkExtent2D extent{std::max(image.extent().width >> mip, 1u), std::max(image.extent().height >> mip, 1u)};

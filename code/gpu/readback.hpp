@@ -10,6 +10,9 @@ namespace q3rt {
 
 class FrameRing;
 
+/// What was copied before is for the CPU to see once these commands are done.
+void recordHostBarrier(VkCommandBuffer commands);
+
 /// All texels of a mip level and layer, tightly packed rows, top row first. Waits for the device.
 std::vector<std::byte> readImage(Device& device, GpuImage& image, uint32_t mip = 0, uint32_t layer = 0);
 /// All bytes of a buffer. Waits for the device.
