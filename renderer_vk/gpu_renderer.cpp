@@ -99,6 +99,10 @@ void GpuRenderer::followSettings() {
     result.fastSky = settings().r_fastsky != 0;
     result.drawWorld = settings().r_drawworld != 0;
     const RasterSettings& r = m_rasterSettings;
+    if (r.r_logFile != 0 || r.r_verbose != 0)
+        logLineOnce(LogLevel::Warning,
+                    "r_logFile and r_verbose do nothing, as in the original: Q3RT_VALIDATION=1 in the "
+                    "environment has each call of Vulkan checked, developer 1 tells more");
     const int wanted = m_context->device().capabilities().software ? 1 : 2; // the setting from which on it is done
     result.cullTriangles = r.r_cullTriangles >= wanted && r.r_nocull == 0 && r.r_showtris == 0 && r.r_shownormals == 0;
 }

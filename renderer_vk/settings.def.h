@@ -45,3 +45,5 @@ SETTING(r_shownormals, Int, 0, 0, 1, C, "", "normals of all vertices, 2 qu long"
 SETTING(r_speeds, Int, 0, 0, 6, C, "", "a line a frame: 1 what is drawn, 2 models in, across and outside of the view, 3 the cluster, 4 dynamic lights, 5 the far plane, 6 flares")
 SETTING(r_showsky, Int, 0, 0, 1, C, "", "sky in front of all")
 SETTING(r_debugSort, Float, 0.0f, 0, 16, C, "", "skip shaders with a larger sort value")
+SETTING(r_logFile, Int, 0, 0, 1000, C, "frames", "no effect, as in the original; Q3RT_VALIDATION=1 in the environment has each call of Vulkan checked")
+SETTING(r_verbose, Int, 0, 0, 1, C, "", "no effect, as in the original; developer 1 and r_speeds tell more")
