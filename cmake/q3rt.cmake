@@ -1,9 +1,13 @@
 # One rule a folder: every .cpp in it belongs to its library, so adding a file needs no list to be edited.
 
-# q3rt_library(NAME LINK dependencies...): a static library of all .cpp files of the current folder.
+# q3rt_library(NAME LINK dependencies...): a static library of all .cpp files of the current folder and its FOLDERS.
 function(q3rt_library name)
-  cmake_parse_arguments(ARG "" "" "LINK;EXCLUDE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp ${CMAKE_CURRENT_SOURCE_DIR}/passes/*.cpp)
+  cmake_parse_arguments(ARG "" "" "LINK;EXCLUDE;FOLDERS" ${ARGN})
+  set(patterns ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  foreach(folder ${ARG_FOLDERS})
+    list(APPEND patterns ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
+  endforeach()
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
   foreach(file ${ARG_EXCLUDE})
     list(REMOVE_ITEM sources ${CMAKE_CURRENT_SOURCE_DIR}/${file})
   endforeach()

@@ -9,8 +9,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "host/commands.hpp"
-#include "host/interrupt.hpp"
+#include "host/commands/commands.hpp"
+#include "host/common/interrupt.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host/map_stage.hpp"
+#include "host/still/map_stage.hpp"
 #include "support/backend_time.hpp"
 #include "support/game_data.hpp"
 

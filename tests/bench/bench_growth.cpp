@@ -16,8 +16,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
-#include "host/census.hpp"
-#include "host/trade_session.hpp"
+#include "host/inspect/census.hpp"
+#include "host/trade/session.hpp"
 
 namespace {
 

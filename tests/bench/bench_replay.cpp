@@ -13,8 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
+#include "host/common/session.hpp"
 #include "host/headless/replayer.hpp"
-#include "host/session.hpp"
 #include "metrics/statistics.hpp"
 #include "support/allocation_count.hpp"
 

@@ -12,8 +12,8 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "host/file_bytes.hpp"
-#include "host/session.hpp"
+#include "host/common/file_bytes.hpp"
+#include "host/common/session.hpp"
 #include "relight/light_score.hpp"
 #include "relight/light_truth.hpp"
 #include "relight/lost_units.hpp"

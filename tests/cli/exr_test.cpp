@@ -1,6 +1,6 @@
 // OpenEXR pictures: what is written is read again bit by bit; damaged files are refused with their name.
 
-#include "host/exr_file.hpp"
+#include "host/common/exr_file.hpp"
 
 #include <cmath>
 #include <limits>

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bad_input.hpp"
-#include "host/file_bytes.hpp"
+#include "host/common/file_bytes.hpp"
 #include "support/game_data.hpp"
 #include "support/run_program.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "bad_input.hpp"
 #include "host/headless/nearest_name.hpp"
-#include "host/kept_configuration.hpp"
+#include "host/packaged/kept_configuration.hpp"
 #include "support/game_data.hpp"
 #include "support/run_program.hpp"
 

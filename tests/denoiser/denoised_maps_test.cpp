@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <gtest/gtest.h>
 
-#include "host/map_stage.hpp"
+#include "host/still/map_stage.hpp"
 #include "metrics/image_metrics.hpp"
 #include "picture_tools.hpp"
 #include "support/game_data.hpp"

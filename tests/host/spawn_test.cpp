@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host/still_scene.hpp"
+#include "host/still/still_scene.hpp"
 
 namespace q3rt {
 namespace {

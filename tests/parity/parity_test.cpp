@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/image.hpp"
-#include "host/file_bytes.hpp"
+#include "host/common/file_bytes.hpp"
 #include "support/game_data.hpp"
 #include "tool/likeness.hpp"
 

@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "host/census.hpp"
-#include "host/engine_process.hpp"
-#include "host/trade_session.hpp"
+#include "host/inspect/census.hpp"
+#include "host/packaged/engine_process.hpp"
+#include "host/trade/session.hpp"
 #include "metrics/statistics.hpp"
 #include "support/game_data.hpp"
 

@@ -113,32 +113,49 @@ TEST(Style, HeadersAreGuarded) {
     }
 }
 
-TEST(Style, DependenciesPointOneWay) {
-    const std::map<std::string, std::set<std::string>> allowed = {
-        {"base", {"base"}},
-        {"math", {"base", "math"}},
-        {"formats", {"base", "math", "formats"}},
-        {"scene", {"base", "math", "accel", "formats", "scene", "shaders"}},
-        {"gpu", {"base", "gpu"}},
-        {"frame", {"base", "gpu", "frame"}},
-        {"relight", {"base", "math", "formats", "scene", "relight"}},
-        {"metrics", {"base", "metrics"}},
-    };
-    const std::regex include("^#include \"([a-z_0-9]+)/");
+/// What the files of each folder of `root` may include of its folders. Returns the number of includes checked.
+size_t checkDependencies(const std::string& root, const std::string& prefix,
+                         const std::map<std::string, std::set<std::string>>& allowed) {
+    const std::regex include("^#include \"" + prefix + "([a-z_0-9]+)/");
     size_t checked = 0;
     for (const SourceFile& file : allFiles()) {
-        if (!file.path.starts_with("code/")) continue;
-        const std::string folder = file.path.substr(5, file.path.find('/', 5) - 5);
+        if (!file.path.starts_with(root)) continue;
+        const std::string folder = file.path.substr(root.size(), file.path.find('/', root.size()) - root.size());
         const auto rule = allowed.find(folder);
         if (rule == allowed.end()) continue;
         for (const std::string& line : file.lines) {
             std::smatch match;
             if (!std::regex_search(line, match, include)) continue;
             ++checked;
-            EXPECT_TRUE(rule->second.contains(match[1])) << file.path << " includes " << match[1] << "/";
+            EXPECT_TRUE(rule->second.contains(match[1])) << file.path << " includes " << prefix << match[1] << "/";
         }
     }
+    return checked;
+}
+
+TEST(Style, DependenciesPointOneWay) {
+    const size_t checked = checkDependencies("code/", "",
+                                             {
+                                                 {"base", {"base"}},
+                                                 {"math", {"base", "math"}},
+                                                 {"formats", {"base", "math", "formats"}},
+                                                 {"scene", {"base", "math", "accel", "formats", "scene", "shaders"}},
+                                                 {"gpu", {"base", "gpu"}},
+                                                 {"frame", {"base", "gpu", "frame"}},
+                                                 {"relight", {"base", "math", "formats", "scene", "relight"}},
+                                                 {"metrics", {"base", "metrics"}},
+                                             });
     EXPECT_GT(checked, 100u);
+    const size_t ofTheProgram = checkDependencies("code/host/", "host/",
+                                                  {
+                                                      {"headless", {"headless"}},
+                                                      {"common", {"headless", "common"}},
+                                                      {"packaged", {"headless", "common", "packaged"}},
+                                                      {"still", {"headless", "common", "still"}},
+                                                      {"inspect", {"common", "packaged", "still", "inspect"}},
+                                                      {"trade", {"headless", "common", "still", "trade"}},
+                                                  });
+    EXPECT_GT(ofTheProgram, 100u);
 }
 
 TEST(Style, FunctionsAreMeasuredRightly) {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "host/evaluation_figures.hpp"
-#include "host/file_bytes.hpp"
+#include "host/common/file_bytes.hpp"
+#include "host/trade/evaluation_figures.hpp"
 #include "sample_results.hpp"
 #include "support/run_program.hpp"
 #include "svg_faults.hpp"

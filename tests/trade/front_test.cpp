@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host/trade_front.hpp"
+#include "host/trade/front.hpp"
 #include "sample_results.hpp"
 
 namespace q3rt::test {

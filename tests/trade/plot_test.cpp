@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "host/svg.hpp"
-#include "host/trade_plot.hpp"
+#include "host/trade/plot.hpp"
+#include "host/trade/svg.hpp"
 #include "sample_results.hpp"
 #include "svg_faults.hpp"
 

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "host/trade_points.hpp"
-#include "host/trade_source.hpp"
+#include "host/trade/points.hpp"
+#include "host/trade/source.hpp"
 
 namespace q3rt::test {
 namespace {

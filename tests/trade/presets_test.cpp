@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "host/trade_presets.hpp"
+#include "host/trade/presets.hpp"
 #include "sample_results.hpp"
 
 namespace q3rt::test {

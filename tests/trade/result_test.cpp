@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
-#include "host/file_bytes.hpp"
+#include "host/common/file_bytes.hpp"
 #include "sample_results.hpp"
 #include "support/run_program.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 // Made-up results for the pure parts of a sweep.
 
-#include "host/trade_result.hpp"
+#include "host/trade/result.hpp"
 
 namespace q3rt::test {
 

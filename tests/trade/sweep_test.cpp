@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "host/file_bytes.hpp"
+#include "host/common/file_bytes.hpp"
 #include "support/run_program.hpp"
 #include "tiny_recording.hpp"
 

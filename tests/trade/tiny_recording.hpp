@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "host/still_scene.hpp"
+#include "host/still/still_scene.hpp"
 #include "trace/recording_writer.hpp"
 
 namespace q3rt::test {

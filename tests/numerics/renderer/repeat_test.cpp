@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/image.hpp"
-#include "host/file_bytes.hpp"
+#include "host/common/file_bytes.hpp"
 #include "metrics/image_metrics.hpp"
 #include "numerics/measured.hpp"
 #include "numerics/renderer/rooms.hpp"

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "base/error.hpp"
-#include "host/installation.hpp"
+#include "host/common/installation.hpp"
 
 extern char** environ;
 

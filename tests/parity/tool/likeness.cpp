@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "formats/image.hpp"
-#include "host/file_bytes.hpp"
+#include "host/common/file_bytes.hpp"
 #include "metrics/image_metrics.hpp"
 #include "metrics/statistics.hpp"
 

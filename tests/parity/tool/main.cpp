@@ -9,7 +9,7 @@
 
 #include "base/error.hpp"
 #include "comparison.hpp"
-#include "host/file_bytes.hpp"
+#include "host/common/file_bytes.hpp"
 
 namespace {
 

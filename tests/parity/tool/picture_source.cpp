@@ -7,7 +7,7 @@
 #include "formats/entities.hpp"
 #include "formats/pk3_file_source.hpp"
 #include "host/headless/replayer.hpp"
-#include "host/map_stage.hpp"
+#include "host/still/map_stage.hpp"
 
 namespace q3rt::parity {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/session.hpp"
+#include "host/common/session.hpp"
 
 namespace q3rt::parity {
 

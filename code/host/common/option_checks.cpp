@@ -1,0 +1,34 @@
+#include "host/common/option_checks.hpp"
+
+#include <charconv>
+#include <cmath>
+
+namespace q3rt {
+namespace {
+
+/// The whole text as a number that lies in the range. Not of the user's locale: a comma is no decimal point.
+template <class Number>
+bool isWithin(const std::string& text, Number least, Number most) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size() && value >= least && value <= most;
+}
+
+} // namespace
+
+OptionCheck wholeNumber(long long least, long long most) {
+    return [=](const std::string& text) {
+        if (isWithin(text, least, most)) return std::string();
+        return formatText("'%s': write a whole number from %lld to %lld", text.c_str(), least, most);
+    };
+}
+
+OptionCheck number(double least, double most) {
+    return [=](const std::string& text) {
+        if (isWithin(text, least, most)) return std::string();
+        if (std::isinf(most)) return formatText("'%s': write a number of %g or more", text.c_str(), least);
+        return formatText("'%s': write a number from %g to %g", text.c_str(), least, most);
+    };
+}
+
+} // namespace q3rt

@@ -1,0 +1,52 @@
+#include "host/common/setting_checks.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "formats/text_case.hpp"
+
+namespace q3rt {
+namespace {
+
+constexpr const char* kTracerPrefix = "rt_";
+
+struct KnownSetting {
+    const char *name, *type, *standard;
+    float least, most;
+};
+#define SETTING(name, type, standard, minimum, maximum, flags, unit, meaning)                                          \
+    {#name, #type, #standard, minimum, maximum},
+constexpr KnownSetting kKnownSettings[] = {
+#include "code/engine/front_end_settings.def.h"
+#include "renderer_rt/settings.def.h"
+#include "renderer_vk/settings.def.h"
+};
+#undef SETTING
+
+[[noreturn]] void refuse(const std::string& name, const std::string& value, const std::string& complaint) {
+    throw CLI::ValidationError(name + "=" + value, complaint);
+}
+
+} // namespace
+
+void requireSettings(const CvarTable& cvars, const CvarList& settings) {
+    for (const auto& [name, value] : settings)
+        if (const std::string complaint = cvars.complaint(name); !complaint.empty()) refuse(name, value, complaint);
+}
+
+void requireKnownSettings(const CvarList& settings) {
+    CvarTable known;
+    for (const KnownSetting& setting : kKnownSettings) {
+        cvar_t* cvar = known.get(setting.name, setting.standard, 0);
+        if (setting.least < setting.most)
+            known.setRange(cvar, setting.least, setting.most, std::string_view(setting.type) == "Int");
+    }
+    CvarList ours;
+    for (const auto& setting : settings) {
+        if (!known.find(setting.first) && !toLowerAscii(setting.first).starts_with(kTracerPrefix)) continue;
+        known.preset(setting.first, setting.second);
+        ours.push_back(setting);
+    }
+    requireSettings(known, ours);
+}
+
+} // namespace q3rt
