@@ -1,5 +1,7 @@
 #include "trace/recording.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <zlib.h>
 #include <zstd.h>
@@ -20,10 +22,18 @@ uint32_t checksum(const void* data, size_t bytes) {
     return static_cast<uint32_t>(crc32_z(0, static_cast<const Bytef*>(data), bytes));
 }
 
+std::unique_ptr<std::istream> openFile(const std::filesystem::path& path) {
+    auto stream = std::make_unique<std::ifstream>(path, std::ios::binary);
+    if (!*stream)
+        throw ContentError(formatText("%s: can't be read: %s; check the path, or make it with 'q3rt record'",
+                                      path.c_str(), std::strerror(errno)));
+    return stream;
+}
+
 } // namespace
 
 Recording::Recording(const std::filesystem::path& path)
-    : Recording(std::make_unique<std::ifstream>(path, std::ios::binary), path.string()) {}
+    : Recording(openFile(path), path.string()) {}
 
 Recording::Recording(std::unique_ptr<std::istream> stream, std::string name)
     : m_stream(std::move(stream))

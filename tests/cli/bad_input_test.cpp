@@ -286,6 +286,30 @@ TEST(FullOutput, IsAFailure) {
     EXPECT_EQ(said.find("q3rt: standard output can't be written: No space left"), 0u) << said;
 }
 
+TEST(MapName, MayBeItsFilesOrNearlyIt) {
+    const fs::path in = makeScratchFolder("map_name");
+    makeBadInput(in);
+    const auto info = [&](const std::string& map) {
+        return runQ3rt({"info", "--basepath", (in / "good").string(), "--map", map});
+    };
+    const ProgramResult plain = info(kBadMap);
+    EXPECT_EQ(plain.exitCode, 0) << plain.errors;
+    EXPECT_EQ(info(std::string("maps/") + kBadMap + ".bsp").output, plain.output);
+    EXPECT_TRUE(info("rom_square_light").saysInOneLine("(did you mean room_square_light?)"));
+}
+
+TEST(OutputName, OfAFolderIsNoFile) {
+    const fs::path in = makeScratchFolder("folder_name");
+    makeBadInput(in);
+    for (const std::string& out : {in.string(), in.string() + "/", in.string() + "/new/"}) {
+        const ProgramResult result =
+            runQ3rt({"subset", "--basepath", (in / "good").string(), "--map", kBadMap, "--out", out});
+        EXPECT_EQ(result.exitCode, 1) << out;
+        EXPECT_TRUE(result.saysInOneLine("name a file in it")) << result.errors;
+    }
+    EXPECT_FALSE(fs::exists(in / "new"));
+}
+
 class DoctorFinds : public BadInput {};
 
 TEST_P(DoctorFinds, ItBeforehand) {

@@ -61,7 +61,7 @@ void addDoctorCommand(CLI::App& app, int& exitCode) {
     DoctorOptions& options = arguments->options;
     addGameOptions(*command, options.game);
     CLI::Option* demo = command->add_option("--demo", options.demo, "A demo to look for")->capture_default_str();
-    command->add_option("--map", options.map, "A map to load as a test");
+    addMapOption(*command, options.map)->description("A map to load as a test");
     command->add_option("--recording", options.recording, "A recording (.q3t) to read whole");
     command->add_option("--out", options.outputFolder, "A folder to try to write into");
     command->add_flag("--deep", options.deep, "Read every file of every archive and check its sum");

@@ -128,7 +128,7 @@ void addInfoCommand(CLI::App& app, int& exitCode) {
         "info", "Count what a map holds (faces, triangles, lights, clusters) and say what it requires of a renderer");
     const auto arguments = std::make_shared<InfoArguments>();
     const auto which = command->add_option_group("maps");
-    which->add_option("--map", arguments->map, "Map name, such as oa_dm1");
+    addMapOption(*which, arguments->map);
     which->add_flag("--all", arguments->all, "Every map of the game, one after the other");
     which->require_option(1);
     command->add_flag("--luxels", arguments->luxels,

@@ -120,12 +120,12 @@ void addPlayCommand(CLI::App& app, int& exitCode) {
         "play", "Play a demo or a map in the packaged engine; without a display, as fast as it draws, into pictures");
     const auto a = std::make_shared<PlayArguments>();
     CLI::Option* demo = command->add_option("--demo", a->demo, "Demo of the game, such as demo088-test1");
-    CLI::Option* map = command->add_option("--map", a->run.map, "Map to start")->excludes(demo);
+    CLI::Option* map = addMapOption(*command, a->run.map)->excludes(demo);
     command->add_flag("--relight", a->relight, "Before that, recover the light that the map lost, unless that is done")
         ->needs(map);
     addRendererOption(*command, a->renderer);
     command->add_flag("--headless", a->run.headless, "No window (the default where there is no display)");
-    addSizeOption(*command, a->run.size);
+    addSizeOption(*command, a->run.size, "the game's; headless 640x480");
     addSetOption(*command, a->run.cvars);
     command->add_flag("--timedemo", a->run.timed, "Draw each frame of the demo once, as fast as possible")->needs(demo);
     command->add_option("--frames", a->run.frameLimit, "Stop after so many frames of the world")->check(wholeNumber(1));

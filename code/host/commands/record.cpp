@@ -90,7 +90,7 @@ void addRecordCommand(CLI::App& app, int& exitCode) {
     command->add_option("--every", a->every, "With --pictures: keep every N-th frame's, counted from the demo's start")
         ->check(wholeNumber(1))
         ->capture_default_str();
-    addSizeOption(*command, a->run.size);
+    addSizeOption(*command, a->run.size, "the engine's, 640x480");
     addSetOption(*command, a->run.cvars);
     command->add_flag("--json", a->json, "Print the summary as one JSON object");
     addGameOptions(*command, a->run.game);

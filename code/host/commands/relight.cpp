@@ -118,7 +118,7 @@ void addRelightCommand(CLI::App& app, int& exitCode) {
         "relight", "Recover the light that a map lost from its lightmap, as text for the ray tracer and for editors");
     const auto a = std::make_shared<RelightArguments>();
     const auto which = command->add_option_group("maps");
-    which->add_option("--map", a->map, "Map name, such as oa_dm1");
+    addMapOption(*which, a->map);
     which->add_flag("--all", a->all, "Every map of the game that has no file yet; goes on where it was broken off");
     which->require_option(1);
     command->add_flag("--again", a->again, "With --all: also the maps that have a file");

@@ -126,7 +126,7 @@ void addReplayCommand(CLI::App& app, int& exitCode) {
     const auto a = std::make_shared<ReplayArguments>();
     command->add_option("recording", a->trace, "The .q3t file")->required();
     addRendererOption(*command, a->renderer);
-    addSizeOption(*command, a->size);
+    addSizeOption(*command, a->size, "the recording's");
     command->add_option("--first", a->first, "First world frame to draw (default: the first one)")
         ->check(wholeNumber(0));
     command->add_option("--count", a->count, "Number of frames (default: to the end)")->check(wholeNumber(1));

@@ -76,7 +76,7 @@ void addSubsetCommand(CLI::App& app, int& exitCode) {
     CLI::App* command = app.add_subcommand("subset", "Write the smallest pk3 that draws a map or a recording");
     const auto a = std::make_shared<SubsetArguments>();
     CLI::Option_group* what = command->add_option_group("what to draw");
-    what->add_option("--map", a->map, "Map name, such as oa_dm1");
+    addMapOption(*what, a->map);
     what->add_option("--trace", a->trace, "Recording (.q3t)");
     what->require_option(1);
     command->add_option("--out", a->out, "Archive to write (.pk3)")->required();

@@ -313,7 +313,7 @@ void addTradeCommand(CLI::App& app, int& exitCode) {
     command->add_option("--frames", a->recordedFrames, "World frames of the recording, such as 100,900 (default: 4)")
         ->delimiter(',')
         ->check(wholeNumber(0));
-    command->add_option("--map", a->map.map, "Map name, such as oa_dm1");
+    addMapOption(*command, a->map.map);
     command
         ->add_option("--at", a->map.places,
                      "\"x y z pitch yaw\" (units, degrees), spawn:N or spawn:A..B; several times (default spawn:0)")

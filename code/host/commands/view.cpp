@@ -106,7 +106,7 @@ void runView(const ViewArguments& a) {
 void addViewCommand(CLI::App& app, int& exitCode) {
     CLI::App* command = app.add_subcommand("view", "Draw one still view of a map: movers at rest, no players, no HUD");
     const auto a = std::make_shared<ViewArguments>();
-    command->add_option("--map", a->map, "Map name, such as oa_dm1")->required();
+    addMapOption(*command, a->map)->required();
     command->add_option("--at", a->at, "\"x y z pitch yaw\" (units, degrees), or spawn:N for the N-th player start")
         ->check(checkedBy(parsePlace))
         ->capture_default_str();

@@ -49,7 +49,8 @@ OutputFile::OutputFile(fs::path path)
     , m_temporary(m_path.string() + formatText(".%d.tmp", static_cast<int>(getpid())))
     , m_folders(m_path.parent_path(), m_path) {
     std::error_code ignored; // opening says what is wrong
-    if (fs::is_directory(m_path, ignored)) fail(m_path, std::strerror(EISDIR));
+    if (fs::is_directory(m_path, ignored) || !m_path.has_filename())
+        throw UsageError(formatText("%s: is a folder; name a file in it", m_path.c_str()));
     if (fs::exists(m_path, ignored) && !fs::is_regular_file(m_path, ignored)) {
         // A device or a pipe (/dev/null, /dev/stdout) takes what is written and must not be replaced.
         m_temporary = m_path;

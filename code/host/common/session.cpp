@@ -16,11 +16,14 @@
 #include "host/common/interrupt.hpp"
 #include "host/common/json_text.hpp"
 #include "host/common/option_checks.hpp"
+#include "host/headless/nearest_name.hpp"
 
 namespace q3rt {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::string_view kMapFolder = "maps/", kMapSuffix = ".bsp";
 
 /// The engine finds them in its home folder (engine_setup.cpp).
 void addLights(Pk3FileSource& files, const Installation& installation) {
@@ -43,12 +46,22 @@ void addRendererOption(CLI::App& command, std::string& renderer) {
         ->capture_default_str();
 }
 
-void addSizeOption(CLI::App& command, PictureSize& size) {
-    const std::string usual = size.width > 0 ? formatText("%dx%d", size.width, size.height) : "the recording's";
+CLI::Option* addMapOption(CLI::App& command, std::string& map) {
+    const auto plainName = [](const std::string& text) {
+        const size_t start = text.rfind(kMapFolder, 0) == 0 ? kMapFolder.size() : 0;
+        const size_t end = text.rfind(kMapSuffix);
+        const bool isFile = end != std::string::npos && end >= start && end + kMapSuffix.size() == text.size();
+        return text.substr(start, isFile ? end - start : std::string::npos);
+    };
+    return command.add_option("--map", map, "Map name, such as oa_dm1")->transform(plainName);
+}
+
+void addSizeOption(CLI::App& command, PictureSize& size, const char* usual) {
+    const std::string given = size.width > 0 ? formatText("%dx%d", size.width, size.height) : usual;
     command
         .add_option_function<std::string>(
             "--size", [&size](const std::string& text) { size = parseSize(text); },
-            "Picture size in pixels (default: " + usual + ")")
+            "Picture size in pixels (default: " + given + ")")
         ->type_name("WxH")
         ->check(checkedBy(parseSize));
 }
@@ -106,11 +119,15 @@ std::unique_ptr<Pk3FileSource> openGame(const GameChoice& choice) {
 }
 
 std::vector<std::byte> readMap(Pk3FileSource& files, const std::string& map) {
-    const std::string name = "maps/" + map + ".bsp";
+    const std::string name = std::string(kMapFolder) + map + std::string(kMapSuffix);
     auto bytes = files.readIntact(name);
-    if (!bytes)
-        throw ContentError(name + " is not in the game's archives: choose another --map, or name the folders with "
-                                  "--basepath and --game");
+    if (!bytes) {
+        std::vector<std::string> maps = files.list("maps", kMapSuffix);
+        for (std::string& file : maps)
+            file.resize(file.size() - kMapSuffix.size());
+        throw ContentError(name + " is not in the game's archives" + hintAtNearest(map, maps) +
+                           ": choose another --map, or name the folders with --basepath and --game");
+    }
     parseBsp(*bytes, name);
     return std::move(*bytes);
 }

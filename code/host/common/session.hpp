@@ -17,7 +17,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+} // namespace CLI
 
 namespace q3rt {
 
@@ -29,7 +30,10 @@ using CvarList = std::vector<std::pair<std::string, std::string>>;
 /// Options that several commands take, with their meaning. Values are checked when they are parsed.
 void addGameOptions(CLI::App& command, GameChoice& choice);
 void addRendererOption(CLI::App& command, std::string& renderer);
-void addSizeOption(CLI::App& command, PictureSize& size);
+/// A map's name, such as oa_dm1; its file's name is as good.
+CLI::Option* addMapOption(CLI::App& command, std::string& map);
+/// `usual` is what the help calls a size that is not given.
+void addSizeOption(CLI::App& command, PictureSize& size, const char* usual = nullptr);
 void addSetOption(CLI::App& command, CvarList& cvars);
 /// From WIDTHxHEIGHT. Throws UsageError.
 PictureSize parseSize(const std::string& text);
