@@ -19,7 +19,9 @@ using uint = uint32_t;
 
 #include "lib/grid_mix.glsl"
 
-constexpr uint32_t kLuxelRays = 16;
+constexpr uint32_t kLuxelRays = 64;
+/// Off by so much says little of a luxel, as relighting has it; a bright one counts less for one unit than a dark one.
+constexpr float kToleranceLuxels = 3, kToleranceShare = 0.1f;
 /// Luxels looked at for each square of the grid.
 constexpr double kLuxelsPerCell = 8;
 /// No more of a map of absurd extent: its light is noise, and loading it must end.
@@ -71,6 +73,19 @@ float facingOf(const std::vector<GridCell>& grid, const CellMix& mix, const Luxe
     return luxel.isThin ? std::abs(facing) : std::max(0.0f, facing);
 }
 
+CellMix mixOfValid(const LightGrid& shape, const std::vector<GridCell>& grid, const LuxelLack& luxel) {
+    return mixAt(shape, luxel, [&](uint32_t cell) { return grid[cell].surfaces.valid; });
+}
+
+vec3 lightOf(const std::vector<GridCell>& grid, const CellMix& mix, float facing) {
+    vec3 sum(0);
+    for (uint32_t k = 0; k < mix.count; ++k) {
+        const GridShare& light = grid[mix.cell[k]].surfaces;
+        sum += mix.weight[k] * (light.ambient + facing * light.directed);
+    }
+    return sum;
+}
+
 /// Least squares by Gauss and Seidel: one unknown after the other is set to its best value beside all others.
 class GridFit {
   public:
@@ -79,11 +94,11 @@ class GridFit {
         , m_takers(grid.size())
         , m_first(grid.size()) {
         for (const LuxelLack& lack : lacks) {
-            const CellMix mix = mixAt(shape, lack, [&](uint32_t cell) { return grid[cell].surfaces.valid; });
+            const CellMix mix = mixOfValid(shape, grid, lack);
             if (mix.count == 0) continue;
             for (uint32_t k = 0; k < mix.count; ++k)
                 m_takers[mix.cell[k]].push_back({static_cast<uint32_t>(m_luxels.size()), mix.weight[k]});
-            m_luxels.push_back({mix, facingOf(grid, mix, lack), lack.light});
+            m_luxels.push_back({mix, facingOf(grid, mix, lack), lack.light, lack.weight});
         }
     }
 
@@ -107,8 +122,9 @@ class GridFit {
             vec3 sum(0);
             float weight = 0;
             for (const Taker& taker : m_takers[i]) {
-                sum += taker.weight * m_luxels[taker.luxel].lack;
-                weight += taker.weight;
+                const AskedLuxel& luxel = m_luxels[taker.luxel];
+                sum += taker.weight * luxel.weight * luxel.lack;
+                weight += taker.weight * luxel.weight;
             }
             m_first[i] = glm::max(sum / weight, vec3(0));
             m_grid[i].surfaces.ambient = m_first[i];
@@ -132,7 +148,8 @@ class GridFit {
     struct AskedLuxel {
         CellMix mix;
         float facing;
-        vec3 lack; ///< since begin(): what the grid does not give it yet
+        vec3 lack;    ///< since begin(): what the grid does not give it yet
+        float weight; ///< how much it counts
     };
     struct Taker {
         uint32_t luxel;
@@ -143,23 +160,23 @@ class GridFit {
     std::vector<std::vector<Taker>> m_takers; ///< by cell
     std::vector<vec3> m_first;                ///< what a cell begins with
 
-    vec3 lightOf(const AskedLuxel& luxel) const {
-        vec3 sum(0);
-        for (uint32_t k = 0; k < luxel.mix.count; ++k) {
-            const GridShare& light = m_grid[luxel.mix.cell[k]].surfaces;
-            sum += luxel.mix.weight[k] * (light.ambient + luxel.facing * light.directed);
-        }
-        return sum;
-    }
+    vec3 lightOf(const AskedLuxel& luxel) const { return q3rt::lightOf(m_grid, luxel.mix, luxel.facing); }
 
     template <typename ShareTaken>
     void improve(std::span<const Taker> takers, const vec3& first, vec3& light, const ShareTaken& shareTaken) {
-        vec3 sum = kFirstGuessLuxels * (first - light);
-        float size = kFirstGuessLuxels;
+        float taken = 0, counted = 0;
         for (const Taker& taker : takers) {
-            const float share = taker.weight * shareTaken(m_luxels[taker.luxel]);
-            sum += share * m_luxels[taker.luxel].lack;
-            size += share * share;
+            taken += taker.weight;
+            counted += taker.weight * m_luxels[taker.luxel].weight;
+        }
+        const float guess = kFirstGuessLuxels * counted / taken;
+        vec3 sum = guess * (first - light);
+        float size = guess;
+        for (const Taker& taker : takers) {
+            const AskedLuxel& luxel = m_luxels[taker.luxel];
+            const float share = taker.weight * shareTaken(luxel);
+            sum += luxel.weight * share * luxel.lack;
+            size += luxel.weight * share * share;
         }
         const vec3 better = glm::max(light + sum / size, vec3(0));
         for (const Taker& taker : takers)
@@ -173,9 +190,9 @@ class GridFit {
 std::vector<LuxelLack> findLacks(const World& world, const MaterialLibrary& materials, const LightProbe& probe,
                                  const vec3& ambient, const vec3& floor) {
     const double square = double(world.grid.cellSize.x) * world.grid.cellSize.y;
-    const double wanted = kLuxelsPerCell * luxelAreaQu2(world, materials) / square;
+    const double wanted = kLuxelsPerCell * luxelAreaQu2(world, materials, LuxelFaces::AllBaked) / square;
     const auto count = static_cast<size_t>(wanted < kMostLuxels ? wanted : kMostLuxels); // not a number: the most
-    const std::vector<Luxel> luxels = sampleLuxels(world, materials, count, 1);
+    const std::vector<Luxel> luxels = sampleLuxels(world, materials, LuxelFaces::AllBaked, count, 1);
     std::vector<LuxelLack> lacks(luxels.size());
     parallelFor(luxels.size(), [&](size_t i) {
         const Luxel& luxel = luxels[i];
@@ -186,7 +203,9 @@ std::vector<LuxelLack> findLacks(const World& world, const MaterialLibrary& mate
         vec3 lights = ambient + seen.irradiance[0];
         const bool thin = isThin(materials.get(world.surfaces[static_cast<size_t>(luxel.surface)].material));
         if (thin) lights += probe.look(luxel.position - offset, -luxel.normal, kLuxelRays, random).irradiance[0];
-        lacks[i] = {luxel.position, luxel.normal, glm::max(luxel.baked, floor) - lights, seen.sunSeen, thin, true};
+        const vec3 light = glm::max(luxel.baked, floor);
+        lacks[i] = {luxel.position, luxel.normal, light - lights, seen.sunSeen, thin, true};
+        lacks[i].weight = 1 / (kToleranceLuxels + kToleranceShare * std::max({light.x, light.y, light.z}));
     });
     std::erase_if(lacks, [](const LuxelLack& lack) { return !lack.isOpen; });
     return lacks;
@@ -224,6 +243,20 @@ void fitGrid(const LightGrid& shape, std::vector<GridCell>& grid, const std::vec
     fit.begin();
     for (int round = 0; round < kRounds; ++round)
         fit.improve();
+}
+
+void explainGrid(const World& world, const MaterialLibrary& materials, const LightProbe& probe, const LightSet& lights,
+                 std::vector<GridCell>& grid) {
+    const std::vector<ProbeWays> explained = explainGrid(probe, world.grid, grid);
+    const std::vector<LuxelLack> lacks = findLacks(world, materials, probe, lights.ambient, lights.floor);
+    openCells(world, grid, lacks);
+    fitGrid(world.grid, grid, lacks);
+    raiseGrid(grid, explained, lights.ambient, lights.floor);
+}
+
+vec3 lightOfGrid(const LightGrid& shape, const std::vector<GridCell>& grid, const LuxelLack& luxel) {
+    const CellMix mix = mixOfValid(shape, grid, luxel);
+    return lightOf(grid, mix, facingOf(grid, mix, luxel));
 }
 
 } // namespace q3rt

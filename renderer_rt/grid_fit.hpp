@@ -14,6 +14,7 @@ struct LuxelLack {
     float sunSeen = 0;   ///< share of the suns' light that arrives
     bool isThin = false; ///< takes light from both sides
     bool isOpen = false; ///< not covered by another face
+    float weight = 1;    ///< how much it counts in the fit
 };
 
 /// At points evenly over the lightmapped faces. `ambient`, light that is everywhere, counts as lights do; and each
@@ -30,5 +31,12 @@ void openCells(const World& world, std::vector<GridCell>& grid, const std::vecto
 /// begin with the mean that their luxels lack, and stay near it where few luxels tell. A cell from which no luxel takes
 /// light is darkened as all cells are on the mean. `shape`: of the map's grid.
 void fitGrid(const LightGrid& shape, std::vector<GridCell>& grid, const std::vector<LuxelLack>& lacks);
+
+/// All of it, in order: what the lights of `probe` explain (grid_light.hpp), what luxels lack, and what is everywhere.
+void explainGrid(const World& world, const MaterialLibrary& materials, const LightProbe& probe, const LightSet& lights,
+                 std::vector<GridCell>& grid);
+
+/// What the cells give a luxel, as the shaders mix them (shaders/rt/grid.glsl), luxel units.
+vec3 lightOfGrid(const LightGrid& shape, const std::vector<GridCell>& grid, const LuxelLack& luxel);
 
 } // namespace q3rt

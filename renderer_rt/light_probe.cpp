@@ -25,32 +25,45 @@ ProbeWays waysAround(const vec3& axis) {
     return {frame.normal, -frame.normal, frame.tangent, -frame.tangent, frame.bitangent, -frame.bitangent};
 }
 
-/// Light that comes along a line, as irradiance across it.
-void addFlux(const vec3& flux, const vec3& way, const ProbeWays& ways, ProbeWays& sum) {
-    const vec3 direction = glm::normalize(way);
-    for (size_t k = 0; k < ways.size(); ++k)
-        sum[k] += flux * std::max(0.0f, dot(ways[k], direction));
+/// Light that comes along a line.
+struct Flux {
+    vec3 way{0};        ///< against the light, of any length
+    vec3 across{0};     ///< irradiance of what faces it, luxel units
+    float share = 1;    ///< of it, that arrives
+    float faintest = 0; ///< irradiance at or below which a surface takes nothing
+};
+
+void addFlux(const Flux& flux, const ProbeWays& ways, ProbeWays& sum) {
+    const vec3 direction = glm::normalize(flux.way);
+    for (size_t k = 0; k < ways.size(); ++k) {
+        const vec3 given = flux.across * std::max(0.0f, dot(ways[k], direction));
+        if (!isFaint(given, flux.faintest)) sum[k] += flux.share * given;
+    }
 }
 
-void lookAtTriangle(const RtTriangleLight& light, const vec3& point, float u, float v, vec3& way, vec3& flux) {
+Flux lookAtTriangle(const RtTriangleLight& light, const vec3& point, float u, float v) {
+    Flux flux;
     const vec3 corner = light.corner - point;
     const float height = -dot(light.normal, corner);
     // A point in the light's own plane takes nothing from it.
-    if (std::abs(height) <= light.error || (height < 0.0f && (light.flags & kLightTwoSided) == 0)) return;
+    if (std::abs(height) <= light.error || (height < 0.0f && (light.flags & kLightTwoSided) == 0)) return flux;
     const SphericalTriangle seen =
         makeSphericalTriangle(corner, light.edge1, light.edge2, std::abs(height), light.areaQu2);
-    way = sampleSphericalTriangle(seen, u, v);
-    if ((light.flags & kLightUpward) != 0 && way.z <= 0.0f) return;
-    flux = light.radiance * (2.0f * seen.halfAngle);
-    way += light.normal * (height > 0.0f ? light.error : -light.error); // short of the light's own surface
+    flux.way = sampleSphericalTriangle(seen, u, v);
+    if ((light.flags & kLightUpward) != 0 && flux.way.z <= 0.0f) return flux;
+    flux.across = light.radiance * (2.0f * seen.halfAngle);
+    flux.way += light.normal * (height > 0.0f ? light.error : -light.error); // short of the light's own surface
+    // As isTriangleFaint() has it, but that a sample stands for the light's middle: far off they give the same.
+    const vec3 middle = corner + (light.edge1 + light.edge2) / 3.0f;
+    if (dot(middle, middle) > kFarTriangleSizes * kFarTriangleSizes * light.areaQu2) flux.faintest = light.faintest;
+    return flux;
 }
 
-void lookAtPoint(const RtLight& light, const vec3& point, vec3& way, vec3& flux) {
-    way = light.position - point;
+Flux lookAtPoint(const RtLight& light, const vec3& point) {
+    const vec3 way = light.position - point;
     const float distance2 = std::max(dot(way, way), kLightMinDistanceQu * kLightMinDistanceQu);
-    flux = light.power / distance2;
-    if (isFaint(flux, light.faintest)) flux = vec3(0.0f);
-    if (light.spot > 0.0f) flux *= spotShare(light.axis, light.spot, -way);
+    const float share = light.spot > 0.0f ? spotShare(light.axis, light.spot, -way) : 1.0f;
+    return {way, light.power / distance2, share, light.faintest};
 }
 
 /// Of an alpha-tested surface, the share that is no hole: the mean alpha of its texture, whose texels are on the
@@ -113,13 +126,13 @@ void LightProbe::addRow(const vec3& point, const RtLightRow& row, const ProbeWay
     for (uint32_t i = 0; i < rayCount; ++i) {
         const DrawnLight drawn = drawLight(m_tables.rows, row, start + i * (~0u / rayCount));
         const float u = uniform(random), v = uniform(random);
-        vec3 way(0.0f), flux(0.0f);
-        if (drawn.light < m_tables.triangles.size())
-            lookAtTriangle(m_tables.triangles[drawn.light], point, u, v, way, flux);
-        else
-            lookAtPoint(m_tables.points[drawn.light - m_tables.triangles.size()], point, way, flux);
-        if (flux == vec3(0.0f) || m_tracer->occluded(point, way, 1.0f)) continue;
-        addFlux(flux * (drawn.weight / static_cast<float>(rayCount)), way, ways, sum);
+        Flux flux = drawn.light < m_tables.triangles.size()
+                        ? lookAtTriangle(m_tables.triangles[drawn.light], point, u, v)
+                        : lookAtPoint(m_tables.points[drawn.light - m_tables.triangles.size()], point);
+        if (flux.share == 0.0f || isFaint(flux.across, flux.faintest) || m_tracer->occluded(point, flux.way, 1.0f))
+            continue;
+        flux.share *= drawn.weight / static_cast<float>(rayCount);
+        addFlux(flux, ways, sum);
     }
 }
 
@@ -130,7 +143,7 @@ void LightProbe::addSuns(const vec3& point, const ProbeWays& ways, Seen& seen) c
         all += lightWeight(sun.power);
         if (!m_tracer->closest(point, sun.position, 0.0f, m_farQu, hit) || !m_isSky[hit.triangle]) continue;
         arrived += lightWeight(sun.power);
-        addFlux(sun.power, sun.position, ways, seen.irradiance);
+        addFlux({.way = sun.position, .across = sun.power}, ways, seen.irradiance);
     }
     if (all > 0) seen.sunSeen = arrived / all;
 }

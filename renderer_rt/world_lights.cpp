@@ -34,6 +34,7 @@ RtTriangleLight makeTriangleLight(const TriangleLight& light) {
     out.normal = light.normal;
     out.areaQu2 = light.areaQu2;
     out.radiance = light.radiance;
+    out.faintest = light.faintest;
     out.flags = (light.twoSided ? kLightTwoSided : 0) | (light.upward ? kLightUpward : 0);
     // |n| . error <= sqrt(3) x the largest component's error; the whole triangle has one bound. Samples are placed
     // relative to the shaded point: only the triangle's own size counts.
@@ -191,11 +192,7 @@ WorldLights::WorldLights(Device& device, Uploader& uploader, const World& world,
     LightTables tables = buildLightTables(world, materials, lights, scale, m_animation);
     if (!tables.grid.empty()) {
         const LightProbe probe(world, materials, tables);
-        const std::vector<ProbeWays> explained = explainGrid(probe, world.grid, tables.grid);
-        const std::vector<LuxelLack> lacks = findLacks(world, materials, probe, lights.ambient, lights.floor);
-        openCells(world, tables.grid, lacks);
-        fitGrid(world.grid, tables.grid, lacks);
-        raiseGrid(tables.grid, explained, lights.ambient, lights.floor);
+        explainGrid(world, materials, probe, lights, tables.grid);
     }
     m_others = tables.others;
     for (size_t i = 0; i < lights.triangles.size(); ++i) {

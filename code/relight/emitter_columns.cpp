@@ -16,8 +16,6 @@ namespace {
 /// Shadow rays toward each kind at a receiver: at least, and more in proportion to its share of all light.
 constexpr int kLeastRays = 4;
 constexpr float kMoreRays = 28;
-/// Nearer than so many times its own size a triangle's form factor is exact.
-constexpr float kFarSizes = 4;
 /// Light triangles lie on the planes that divide the map: half a unit off is inside the leaf that they light.
 constexpr float kOffFaceQu = 0.5f;
 /// A ray toward an emitter ends one part in a thousand short of it: it is an occluder itself.
@@ -25,9 +23,11 @@ constexpr float kShortOfLight = 0.999f;
 
 class EmitterTracer {
   public:
-    EmitterTracer(const LightScene& scene, const std::vector<LightReceiver>& receivers)
+    EmitterTracer(const LightScene& scene, const std::vector<LightReceiver>& receivers,
+                  const std::vector<float>& faintest)
         : m_scene(scene)
-        , m_receivers(receivers) {
+        , m_receivers(receivers)
+        , m_faintest(faintest) {
         for (const TriangleLight& light : scene.lights.triangles) {
             const vec3 centre = (light.corner[0] + light.corner[1] + light.corner[2]) / 3.0f;
             const auto clusterAt = [&](const vec3& point) {
@@ -47,7 +47,7 @@ class EmitterTracer {
         std::vector<std::vector<Share>> shares(m_scene.kinds.size());
         float all = 0;
         for (size_t k = 0; k < shares.size(); ++k) {
-            shares[k] = sharesOf(m_scene.kinds[k], receiver);
+            if (m_faintest[k] >= 0) shares[k] = sharesOf(m_scene.kinds[k], m_faintest[k], receiver);
             if (!shares[k].empty()) all += shares[k].back().sum * m_scene.kinds[k].radiosity;
         }
         for (size_t k = 0; k < shares.size(); ++k) {
@@ -69,21 +69,22 @@ class EmitterTracer {
     };
     const LightScene& m_scene;
     const std::vector<LightReceiver>& m_receivers;
+    const std::vector<float>& m_faintest;
     std::vector<Place> m_places; ///< by triangle
 
     /// Share of the hemisphere that a triangle fills, unshadowed.
-    float shareOf(uint32_t triangle, const vec3& point, const vec3& normal) const {
+    float shareOf(uint32_t triangle, const vec3& point, const vec3& normal, float faintest) const {
         const TriangleLight& light = m_scene.lights.triangles[triangle];
         const vec3 to = m_places[triangle].centre - point;
         const float squared = glm::dot(to, to), height = -glm::dot(to, light.normal);
         if (height <= 0 && !light.twoSided) return 0;
-        if (squared <= kFarSizes * kFarSizes * light.areaQu2)
-            return static_cast<float>(triangleFormFactor(point, normal, light.corner));
+        if (!isFarFrom(light, squared)) return static_cast<float>(triangleFormFactor(point, normal, light.corner));
         const float cosine = glm::dot(to, normal);
-        return cosine > 0 ? light.areaQu2 * cosine * std::abs(height) / (kPi * squared * squared) : 0;
+        const float share = cosine > 0 ? light.areaQu2 * cosine * std::abs(height) / (kPi * squared * squared) : 0;
+        return share > faintest ? share : 0;
     }
 
-    std::vector<Share> sharesOf(const EmitterKind& kind, const LightReceiver& receiver) const {
+    std::vector<Share> sharesOf(const EmitterKind& kind, float faintest, const LightReceiver& receiver) const {
         std::vector<Share> shares;
         float sum = 0;
         for (const uint32_t triangle : kind.triangles) {
@@ -93,7 +94,7 @@ class EmitterTracer {
                 continue;
             float share = 0;
             for (int p = 0; p < LightReceiver::kPoints; p += 2)
-                share += 0.5f * shareOf(triangle, receiver.position[p], receiver.normal[p]);
+                share += 0.5f * shareOf(triangle, receiver.position[p], receiver.normal[p], faintest);
             if (!(share > 0)) continue;
             sum += share;
             shares.push_back({triangle, sum});
@@ -128,10 +129,11 @@ class EmitterTracer {
 
 } // namespace
 
-std::vector<LightColumn> traceEmitters(const LightScene& scene, const std::vector<LightReceiver>& receivers) {
+std::vector<LightColumn> traceEmitters(const LightScene& scene, const std::vector<LightReceiver>& receivers,
+                                       const std::vector<float>& faintest) {
     std::vector<LightColumn> columns(scene.kinds.size());
     if (scene.lights.triangles.empty()) return columns;
-    const EmitterTracer tracer(scene, receivers);
+    const EmitterTracer tracer(scene, receivers, faintest);
     std::vector<std::vector<float>> values(receivers.size(), std::vector<float>(scene.kinds.size(), 0));
     parallelFor(receivers.size(), [&](size_t i) { tracer.trace(i, values[i]); });
     for (size_t i = 0; i < receivers.size(); ++i)

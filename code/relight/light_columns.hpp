@@ -24,8 +24,11 @@ struct LightCone {
     bool isPoint() const { return axis == vec3(0); }
 };
 
-/// One column a kind, for a radiosity of 1; empty for skies, see HemisphereRays.
-std::vector<LightColumn> traceEmitters(const LightScene& scene, const std::vector<LightReceiver>& receivers);
+/// One column a kind, for a radiosity of 1; empty for skies, see HemisphereRays. `faintest`, by kind: what a triangle
+/// of radiosity 1 gives to a point is left out at or below this (scene/lights.hpp: isTooFaint); negative: the whole
+/// column.
+std::vector<LightColumn> traceEmitters(const LightScene& scene, const std::vector<LightReceiver>& receivers,
+                                       const std::vector<float>& faintest);
 /// For an irradiance of 1 at normal incidence.
 LightColumn traceSun(const LightScene& scene, const std::vector<LightReceiver>& receivers, const SunLight& sun);
 /// Irradiance of an unshadowed point light of intensity 1: cos / d^2, d at least 16 qu as the map compilers have it.

@@ -1,6 +1,9 @@
 #include "relight/relight.hpp"
 
 #include <algorithm>
+#include <limits>
+
+#include "relight/lost_units.hpp"
 
 namespace q3rt {
 namespace {
@@ -48,6 +51,20 @@ void runStage(RelightModel& model, size_t stage, const std::vector<size_t>& coun
     }
 }
 
+/// Did the compiler let surfaces that shine end (q3map2 -fast)? What explains more before any light is found.
+float findSurfaceEnd(const RelightInput& input, LostLights scripted) {
+    float best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (const float faintest : {0.0f, kFaintestLight}) {
+        scripted.faintestSurface = faintest;
+        RelightModel model(input, scripted);
+        model.solveFirst();
+        if (model.cost() < least) best = faintest;
+        least = std::min(least, model.cost());
+    }
+    return best;
+}
+
 /// As a file has them: rounded, so that a run goes on from the same numbers whether it was broken off or not.
 LostLights throughText(const LostLights& lights) { return parseLostLights(formatLostLights(lights, ""), "lights"); }
 
@@ -82,6 +99,7 @@ RelightResult relight(const World& world, const MaterialLibrary& materials, cons
     LostLights scripted = input.scripted();
     scripted.bounce = kCompilerBounce;
     result.before = RelightModel(input, scripted).scoreHeldOut(kScoredLuxels);
+    if (!begun) scripted.faintestSurface = findSurfaceEnd(input, scripted);
     result.lights = begun ? *begun : scripted;
     advance(done = kInputSteps);
     for (size_t stage = first; stage < counts.size(); ++stage) {

@@ -41,7 +41,7 @@ RelightInput::RelightInput(const World& world, const MaterialLibrary& materials,
     : settings(s)
     , scene(world, materials, s.luxels, s.openPoints)
     , rays(scene, scene.receivers, s.hemisphereRays)
-    , kindColumns(traceEmitters(scene, scene.receivers))
+    , kindColumns(traceEmitters(scene, scene.receivers, std::vector<float>(scene.kinds.size(), 0)))
     , eyes(openEyes(scene))
     , compensation(findCompensation(world.bsp))
     , floor(worldLight(world, {"_minlight"}) / compensation)
@@ -53,6 +53,19 @@ RelightInput::RelightInput(const World& world, const MaterialLibrary& materials,
     findShown();
     findAmbientLimit();
     price = settings.price * LightFit(makeTargets()).cost() / kIntensityOfValue;
+}
+
+std::vector<LightColumn> RelightInput::kindColumnsOf(const std::vector<float>& radiosities, float faintest) const {
+    std::vector<LightColumn> columns = kindColumns;
+    if (!(faintest > 0)) return columns;
+    std::vector<float> ends(scene.kinds.size(), -1);
+    for (size_t k = 0; k < ends.size(); ++k)
+        if (scene.kinds[k].type == EmitterKind::Type::Surface)
+            ends[k] = faintest / (radiosities[k] > 0 ? radiosities[k] : scene.kinds[k].radiosity);
+    std::vector<LightColumn> ended = traceEmitters(scene, scene.receivers, ends);
+    for (size_t k = 0; k < ends.size(); ++k)
+        if (ends[k] >= 0) columns[k] = std::move(ended[k]);
+    return columns;
 }
 
 void RelightInput::findShown() {

@@ -25,7 +25,7 @@ struct RelightInput {
     RelightSettings settings;
     LightScene scene;
     HemisphereRays rays;
-    std::vector<LightColumn> kindColumns; ///< by kind, of radiosity 1
+    std::vector<LightColumn> kindColumns; ///< by kind, of radiosity 1, to any distance
     std::vector<LightEye> eyes;
     std::vector<bool> isShown; ///< by patch: somebody may see its luxels
     /// Irradiance over luxel: above 1 on maps that were compiled darker (their brightest luxel says so).
@@ -36,6 +36,8 @@ struct RelightInput {
     double price = 0;        ///< of a unit of intensity, in units of the fit's cost
     std::string fingerprint; ///< of the lightmap
 
+    /// As kindColumns, where surfaces of such radiosity, by kind, give nothing that is as faint as that.
+    std::vector<LightColumn> kindColumnsOf(const std::vector<float>& radiosities, float faintest) const;
     /// As the map compiler would have stored it.
     vec3 luxelOf(const vec3& irradiance) const;
     vec3 bakedIrradiance(size_t patch) const { return compensation * scene.luxels.patches[patch].baked; }

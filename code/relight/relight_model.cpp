@@ -26,6 +26,7 @@ constexpr float kFaintestSun = 0.5f;
 RelightModel::RelightModel(const RelightInput& input, const LostLights& lights)
     : m_input(input)
     , m_fit(input.makeTargets())
+    , m_faintestSurface(lights.faintestSurface)
     , m_bounced(input.scene.receivers.size(), vec3(0))
     , m_bounceScale(lights.bounce) {
     addKinds(lights);
@@ -56,10 +57,16 @@ void RelightModel::addKinds(const LostLights& lights) {
         radiosities[{false, s.material}] = s.color * (s.value * radiosityOfValue(EmitterKind::Type::Surface));
     for (const LostLights::Strength& s : lights.skyLights)
         radiosities[{true, s.material}] = s.color * (s.value * radiosityOfValue(EmitterKind::Type::SkyDome));
-    for (size_t k = 0; k < m_input.kindColumns.size(); ++k) {
-        const EmitterKind& kind = m_input.scene.kinds[k];
-        m_kindSources.push_back(m_fit.add(m_input.kindColumns[k]));
-        m_fit.setStrength(m_kindSources.back(), radiosities[{kind.type == EmitterKind::Type::SkyDome, kind.material}]);
+    std::vector<vec3> ofKinds;
+    std::vector<float> largest;
+    for (const EmitterKind& kind : m_input.scene.kinds) {
+        ofKinds.push_back(radiosities[{kind.type == EmitterKind::Type::SkyDome, kind.material}]);
+        largest.push_back(largestOf(ofKinds.back()));
+    }
+    std::vector<LightColumn> columns = m_input.kindColumnsOf(largest, m_faintestSurface);
+    for (size_t k = 0; k < columns.size(); ++k) {
+        m_kindSources.push_back(m_fit.add(std::move(columns[k])));
+        m_fit.setStrength(m_kindSources.back(), ofKinds[k]);
     }
     LightColumn everywhere;
     for (size_t i = 0; i < m_input.scene.receivers.size(); ++i)
@@ -164,6 +171,7 @@ LostLights RelightModel::lights() const {
     lights.lightmap = m_input.fingerprint;
     lights.compensate = m_input.compensation;
     lights.faintest = kFaintestLight;
+    lights.faintestSurface = m_faintestSurface;
     lights.bounce = static_cast<float>(m_bounceScale);
     lights.floor = m_input.compensation * m_input.floor;
     const vec3 ambient = m_fit.strength(m_ambientSource);
@@ -249,7 +257,12 @@ std::vector<vec3> RelightModel::irradianceAt(const std::vector<LightReceiver>& r
         for (size_t i = 0; i < column.receiver.size(); ++i)
             lit[column.receiver[i]] += column.value[i] * strength;
     };
-    const std::vector<LightColumn> emitters = traceEmitters(scene, receivers), skies = rays.skyColumns(scene);
+    std::vector<float> faintest;
+    for (const size_t source : m_kindSources) {
+        const float strength = largestOf(m_fit.strength(source));
+        faintest.push_back(strength > 0 ? m_faintestSurface / strength : -1);
+    }
+    const std::vector<LightColumn> emitters = traceEmitters(scene, receivers, faintest), skies = rays.skyColumns(scene);
     for (size_t k = 0; k < emitters.size(); ++k) {
         addLight(emitters[k], m_fit.strength(m_kindSources[k]));
         addLight(skies[k], m_fit.strength(m_kindSources[k]));

@@ -40,6 +40,7 @@ class RelightModel {
     const RelightInput& m_input;
     LightFit m_fit;
     std::vector<size_t> m_kindSources;
+    float m_faintestSurface;
     size_t m_ambientSource = 0;
     std::vector<Sun> m_suns;
     std::unique_ptr<PointSearch> m_points;

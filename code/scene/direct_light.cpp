@@ -86,7 +86,7 @@ vec3 DirectLightTracer::surfaceLight(const vec3& origin, const vec3& normal, int
     vec3 sum(0);
     for (const TriangleLight& light : m_lights.triangles) {
         const float height = glm::dot(origin - light.corner[0], light.normal);
-        if (light.bspModel != 0 || (height <= 0 && !light.twoSided)) continue;
+        if (light.bspModel != 0 || (height <= 0 && !light.twoSided) || isTooFaint(light, origin, normal)) continue;
         const double factor = triangleFormFactor(origin, normal, light.corner);
         if (factor <= 0) continue;
         // The visible share is weighted by what each sample would give, so that shadow edges stay unbiased.

@@ -177,6 +177,11 @@ std::vector<RowLight> describeRowLights(std::span<const TriangleLight> triangles
         for (const vec3& corner : triangle.corner)
             light.radiusQu = std::max(light.radiusQu, glm::distance(corner, light.center()));
         if (!std::isinf(light.reachQu)) light.radiusQu += light.reachQu;
+        if (triangle.faintest > 0) {
+            const float strongest = std::max({triangle.radiance.x, triangle.radiance.y, triangle.radiance.z});
+            const float farthest = std::max(kFarTriangleSizes, std::sqrt(strongest / triangle.faintest));
+            light.farthestQu = kFarSlack * farthest * std::sqrt(triangle.areaQu2) + light.reachQu;
+        }
     }
     for (const PointLight& point : points) {
         RowLight& light = lights.emplace_back();

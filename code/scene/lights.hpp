@@ -8,6 +8,7 @@
 
 #include "scene/world.hpp"
 #include "shaders/shared/constants.h"
+#include "shaders/shared/rt_lights.h"
 
 namespace q3rt {
 
@@ -23,8 +24,19 @@ struct TriangleLight {
     int bspModel = 0;      ///< 0 world, else the submodel that moves it
     bool upward = false;   ///< only directions above the horizon shine (q3map_skylight)
     float reachQu = 0;     ///< deforms move it at most so far from here, at any time; may be infinite
+    /// Irradiance of the largest channel at or below which it gives nothing, luxel units: isTooFaint(). 0: none.
+    float faintest = 0;
     bool moves() const { return bspModel != 0 || reachQu > 0; }
 };
+
+/// Far enough for the light of its middle to stand for all of it: four times its size. `squared`: of the distance,
+/// qu^2.
+inline bool isFarFrom(const TriangleLight& light, float squared) {
+    return squared > kFarTriangleSizes * kFarTriangleSizes * light.areaQu2;
+}
+/// Does the map compilers' rule leave it out at a point? Only far from it, by the unshadowed light of its middle: the
+/// same for every way to sample it.
+bool isTooFaint(const TriangleLight& light, const vec3& point, const vec3& normal);
 
 struct SunLight {
     vec3 direction{0};  ///< toward the sun, unit
@@ -70,10 +82,10 @@ struct LightSet {
     std::vector<SunLight> suns; ///< of drawn skies
     std::vector<SkyLight> skies;
     std::vector<PointLight> points; ///< surviving light entities
-    vec3 ambient{0};              ///< irradiance that is the same everywhere; 0: there is none, or it is not known
-    vec3 floor{0};                ///< the least irradiance that a surface has
-    size_t emissiveSurfaces = 0;  ///< that gave triangles
-    size_t zeroAreaTriangles = 0; ///< of emissive surfaces, left out: they give no light
+    vec3 ambient{0};                ///< irradiance that is the same everywhere; 0: there is none, or it is not known
+    vec3 floor{0};                  ///< the least irradiance that a surface has
+    size_t emissiveSurfaces = 0;    ///< that gave triangles
+    size_t zeroAreaTriangles = 0;   ///< of emissive surfaces, left out: they give no light
 };
 
 /// The sky surfaces as triangle lights: each sky gives its light through its own surfaces, and only there.

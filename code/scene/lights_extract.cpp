@@ -135,6 +135,15 @@ vec3 directionOfAngles(float yawDegrees, float pitchDegrees) {
     return {std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch)};
 }
 
+bool isTooFaint(const TriangleLight& light, const vec3& point, const vec3& normal) {
+    const vec3 to = (light.corner[0] + light.corner[1] + light.corner[2]) / 3.0f - point;
+    const float squared = glm::dot(to, to);
+    if (!(light.faintest > 0) || !isFarFrom(light, squared)) return false;
+    const float cosines = std::max(0.0f, glm::dot(to, normal)) * std::abs(glm::dot(to, light.normal));
+    const float strongest = std::max({light.radiance.x, light.radiance.y, light.radiance.z});
+    return strongest * light.areaQu2 * cosines <= light.faintest * squared * squared;
+}
+
 bool measureTriangle(TriangleLight& light) {
     // In double: slivers of far away geometry keep a direction.
     const dvec3 a(light.corner[0]), b(light.corner[1]), c(light.corner[2]);

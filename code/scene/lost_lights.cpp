@@ -159,6 +159,8 @@ class Reader {
             if (!(m_lights.compensate > 0)) fail("_compensate must be above 0");
         } else if (key == "_faintest") {
             m_lights.faintest = std::max(0.0f, given(1, 1)[0]);
+        } else if (key == "_faintestsurface") {
+            m_lights.faintestSurface = std::max(0.0f, given(1, 1)[0]);
         } else if (key == "_bounce") {
             m_lights.bounce = std::max(0.0f, given(1, 1)[0]);
         } else if (key == "_stage") {
@@ -206,6 +208,7 @@ std::string formatLostLights(const LostLights& lights, std::string_view map) {
     text += pair("classname", "worldspawn") + "\n" + pair("_lightmap", lights.lightmap) + "\n";
     if (lights.compensate != 1) text += pair("_compensate", numbers({lights.compensate}, 4)) + "\n";
     if (lights.faintest > 0) text += pair("_faintest", numbers({lights.faintest}, 4)) + "\n";
+    if (lights.faintestSurface > 0) text += pair("_faintestSurface", numbers({lights.faintestSurface}, 4)) + "\n";
     if (lights.bounce > 0) text += pair("_bounce", numbers({lights.bounce}, 2)) + "\n";
     if (lights.stage > 0) text += pair("_stage", formatText("%zu %zu", lights.stage, lights.budget)) + "\n";
     if (lights.ambientValue > 0)
@@ -263,6 +266,7 @@ void applyLostLights(const LostLights& lost, const World& world, const MaterialL
     };
     for (TriangleLight& light : lights.triangles) {
         light.radiance *= scale;
+        light.faintest = scale * lost.faintestSurface;
         if (const auto* strength = find(surfaceLights, light.surface))
             light.radiance =
                 strength->color * (scale * kRadiosityOfValue * strength->value / std::numbers::pi_v<float>);

@@ -18,9 +18,10 @@ struct LostLights {
         float value = 0;
         vec3 color{1}; ///< largest component 1
     };
-    std::string lightmap;   ///< of which bake it is, see lightmapFingerprint()
-    float compensate = 1;   ///< the bake was divided by this at the end (q3map2 -compensate)
-    float faintest = 0;     ///< what a point light gives to a place is left out at or below this, luxel units
+    std::string lightmap;      ///< of which bake it is, see lightmapFingerprint()
+    float compensate = 1;      ///< the bake was divided by this at the end (q3map2 -compensate)
+    float faintest = 0;        ///< what a point light gives to a place is left out at or below this, luxel units
+    float faintestSurface = 0; ///< the same of a triangle of a surface that shines
     float bounce = 0;       ///< of physics' diffuse bounces, what the bake had; the renderer has it from the light grid
     size_t stage = 0;       ///< of work that was broken off: stages done; 0: finished
     size_t budget = 0;      ///< of that work: lights that it may find

@@ -20,20 +20,30 @@ struct SampledTriangle {
     double areaSum; ///< up to and including this one
 };
 
-bool isLuxelSurface(const World& world, const MaterialLibrary& materials, int s) {
-    const WorldSurface& surface = world.surfaces[static_cast<size_t>(s)];
+bool hasLightmap(const World& world, int s) {
     const int page = world.bsp.surfaces[static_cast<size_t>(s)].lightmap;
-    const Material& material = materials.get(surface.material);
-    return surface.drawn && page >= 0 && static_cast<size_t>(page) < world.bsp.lightmapPageCount() &&
-           surface.type != BspSurfaceType::TriangleSoup && !material.isSky && material.light.surfaceLight <= 0;
+    return page >= 0 && static_cast<size_t>(page) < world.bsp.lightmapPageCount();
 }
 
-std::vector<SampledTriangle> luxelTriangles(const World& world, const MaterialLibrary& materials) {
+bool hasVertexLight(const Material& material) {
+    return std::any_of(material.stages.begin(), material.stages.end(),
+                       [](const Stage& stage) { return stage.bakedLight == BakedLight::VertexColor; });
+}
+
+bool isLuxelSurface(const World& world, const MaterialLibrary& materials, LuxelFaces faces, int s) {
+    const WorldSurface& surface = world.surfaces[static_cast<size_t>(s)];
+    const Material& material = materials.get(surface.material);
+    if (!surface.drawn || material.isSky || material.light.surfaceLight > 0) return false;
+    if (hasLightmap(world, s)) return surface.type != BspSurfaceType::TriangleSoup;
+    return faces == LuxelFaces::AllBaked && surface.patch < 0 && hasVertexLight(material);
+}
+
+std::vector<SampledTriangle> luxelTriangles(const World& world, const MaterialLibrary& materials, LuxelFaces faces) {
     std::vector<SampledTriangle> triangles;
     double areaSum = 0;
     const BspModel& model = world.bsp.models[0];
     for (int s = model.firstSurface; s < model.firstSurface + model.surfaceCount; ++s) {
-        if (!isLuxelSurface(world, materials, s)) continue;
+        if (!isLuxelSurface(world, materials, faces, s)) continue;
         const WorldSurface& surface = world.surfaces[static_cast<size_t>(s)];
         for (uint32_t i = surface.firstIndex; i + 2 < surface.firstIndex + surface.indexCount; i += 3) {
             const vec3 &a = world.vertices[world.indices[i]].position,
@@ -59,6 +69,14 @@ vec3 luxelAt(const Bsp& bsp, int page, const vec2& st) {
     const int x = static_cast<int>(cell.x), y = static_cast<int>(cell.y);
     return glm::mix(glm::mix(texel(x, y), texel(x + 1, y), f.x), glm::mix(texel(x, y + 1), texel(x + 1, y + 1), f.x),
                     f.y);
+}
+
+/// As the file has it: the world's own vertices are brightened, and saturate.
+vec3 vertexLightAt(const World& world, int s, uint32_t vertex) {
+    const auto surface = static_cast<size_t>(s);
+    const uint32_t number = vertex - world.surfaces[surface].firstVertex;
+    const auto& color = world.bsp.vertices[static_cast<size_t>(world.bsp.surfaces[surface].firstVertex) + number].color;
+    return {color.x, color.y, color.z};
 }
 
 double median(std::vector<double> values) {
@@ -112,9 +130,10 @@ vec3 normalAt(const World& world, uint32_t firstIndex, const vec3& weight) {
     return length > 0 ? normal / length : vec3(0);
 }
 
-std::vector<Luxel> sampleLuxels(const World& world, const MaterialLibrary& materials, size_t count, uint32_t seed) {
+std::vector<Luxel> sampleLuxels(const World& world, const MaterialLibrary& materials, LuxelFaces faces, size_t count,
+                                uint32_t seed) {
     std::vector<Luxel> luxels;
-    const std::vector<SampledTriangle> triangles = luxelTriangles(world, materials);
+    const std::vector<SampledTriangle> triangles = luxelTriangles(world, materials, faces);
     if (triangles.empty()) return luxels;
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> area(0, triangles.back().areaSum);
@@ -127,28 +146,31 @@ std::vector<Luxel> sampleLuxels(const World& world, const MaterialLibrary& mater
         const float weight[3] = {1 - root, root * (1 - v), root * v};
         Luxel luxel;
         vec2 st(0);
+        const bool mapped = hasLightmap(world, it->surface);
         for (uint32_t corner = 0; corner < 3; ++corner) {
-            const Vertex& vertex = world.vertices[world.indices[it->firstIndex + corner]];
+            const uint32_t number = world.indices[it->firstIndex + corner];
+            const Vertex& vertex = world.vertices[number];
             luxel.position += weight[corner] * vertex.position;
             st += weight[corner] * vertex.lightmapSt;
+            if (!mapped) luxel.baked += weight[corner] * vertexLightAt(world, it->surface, number);
         }
         luxel.normal = normalAt(world, it->firstIndex, {weight[0], weight[1], weight[2]});
         luxel.surface = it->surface;
-        luxel.baked = luxelAt(world.bsp, world.bsp.surfaces[static_cast<size_t>(it->surface)].lightmap, st);
+        if (mapped) luxel.baked = luxelAt(world.bsp, world.bsp.surfaces[static_cast<size_t>(it->surface)].lightmap, st);
         if (luxel.normal == vec3(0) || largest(luxel.baked) >= 255) continue;
         luxels.push_back(luxel);
     }
     return luxels;
 }
 
-double luxelAreaQu2(const World& world, const MaterialLibrary& materials) {
-    const std::vector<SampledTriangle> triangles = luxelTriangles(world, materials);
+double luxelAreaQu2(const World& world, const MaterialLibrary& materials, LuxelFaces faces) {
+    const std::vector<SampledTriangle> triangles = luxelTriangles(world, materials, faces);
     return triangles.empty() ? 0 : triangles.back().areaSum;
 }
 
 LuxelReport checkLuxels(const World& world, const MaterialLibrary& materials, const LightSet& lights, size_t count,
                         uint32_t seed, unsigned threadCount) {
-    const std::vector<Luxel> luxels = sampleLuxels(world, materials, count, seed);
+    const std::vector<Luxel> luxels = sampleLuxels(world, materials, LuxelFaces::Lightmapped, count, seed);
     const DirectLightTracer tracer(world, materials, lights);
     std::vector<DirectLight> traced(luxels.size());
     std::vector<std::thread> threads;

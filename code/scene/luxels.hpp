@@ -11,7 +11,7 @@ namespace q3rt {
 
 struct Luxel {
     vec3 position{0}, normal{0};
-    vec3 baked{0}; ///< lightmap bytes 0..255, bilinear, no overbright shift
+    vec3 baked{0}; ///< lightmap bytes 0..255, bilinear, or vertex bytes, interpolated; no overbright shift
     int surface = -1;
 };
 
@@ -20,12 +20,17 @@ struct Luxel {
 /// none.
 vec3 normalAt(const World& world, uint32_t firstIndex, const vec3& weight);
 
-/// Points uniform by area over lightmapped faces of the world; sky, hidden and emissive faces and saturated luxels left
-/// out. The same seed gives the same points.
-std::vector<Luxel> sampleLuxels(const World& world, const MaterialLibrary& materials, size_t count, uint32_t seed);
+/// Faces whose light counts: those with a lightmap, or also the flat ones that a compiler lit at their vertices, where
+/// the material takes these colours as light.
+enum class LuxelFaces { Lightmapped, AllBaked };
+
+/// Points uniform by area over such faces of the world; sky, hidden and emissive faces and saturated luxels left out.
+/// The same seed gives the same points.
+std::vector<Luxel> sampleLuxels(const World& world, const MaterialLibrary& materials, LuxelFaces faces, size_t count,
+                                uint32_t seed);
 
 /// Area of these faces.
-double luxelAreaQu2(const World& world, const MaterialLibrary& materials);
+double luxelAreaQu2(const World& world, const MaterialLibrary& materials, LuxelFaces faces);
 
 /// All in luxel units of the largest channel.
 struct LuxelReport {

@@ -5,6 +5,7 @@
 #include "lib/sampling.glsl"
 #include "lib/spherical_triangle.glsl"
 #include "shared/constants.h"
+#include "shared/rt_lights.h"
 
 struct LightSample {
     vec3 irradiance; // unshadowed estimate, already divided by the density of the sampled point
@@ -101,6 +102,18 @@ LightSample sampleSphereLight(vec3 position, vec3 normal, vec3 center, float rad
 
 // Does the map compilers' rule leave this out: nothing of it is above the faintest light that they count?
 bool isFaint(vec3 irradiance, float faintest) { return max(irradiance.x, max(irradiance.y, irradiance.z)) <= faintest; }
+
+// The same of a triangle, only far from it and by the unshadowed light of its middle: one answer for all its samples.
+bool isTriangleFaint(vec3 position, vec3 normal, vec3 corner, vec3 edge1, vec3 edge2, vec3 lightNormal, float areaQu2,
+                     vec3 radiance, float faintest)
+{
+    vec3 way = corner + (edge1 + edge2) * (1.0f / 3.0f) - position;
+    float distance2 = dot(way, way);
+    if (faintest <= 0.0f || distance2 <= kFarTriangleSizes * kFarTriangleSizes * areaQu2)
+        return false;
+    float cosines = max(0.0f, dot(normal, way)) / distance2 * (abs(dot(lightNormal, way)) / distance2);
+    return isFaint(radiance * (areaQu2 * cosines), faintest);
+}
 
 // A sun: `irradiance` at normal incidence; soft if it has an angle. The direction has length `farQu`.
 LightSample sampleSun(vec3 normal, vec3 toSun, float oneMinusCosAngle, vec3 irradiance, float farQu, float u, float v)

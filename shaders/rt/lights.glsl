@@ -100,6 +100,9 @@ struct ShadingPoint {
 // What a sample of a triangle takes from the light's own rules, and where its ray ends.
 LightSample finishTriangle(LightSample result, RtTriangleLight l, ShadingPoint point)
 {
+    if (isTriangleFaint(point.origin, point.normal, l.corner, l.edge1, l.edge2, l.normal, l.areaQu2, l.radiance,
+                        l.faintest))
+        result.irradiance = vec3(0.0);
     if (l.animation != 0u)
         result.irradiance *= LightColorTable(rtFrame.lightColors).at[l.animation - 1u];
     if ((l.flags & kLightUpward) != 0u && result.direction.z <= 0.0)

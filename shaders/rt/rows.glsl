@@ -121,7 +121,7 @@ RtTriangleLight loadTriangleLight(SHARED_ADDRESS lights, uint index)
     uvec4 r0 = RowTable(lights).at[first], r1 = RowTable(lights).at[first + 1u], r2 = RowTable(lights).at[first + 2u],
           r3 = RowTable(lights).at[first + 3u], r4 = RowTable(lights).at[first + 4u];
     return RtTriangleLight(vectorOf(r0), uintBitsToFloat(r0.w), vectorOf(r1), r1.w, vectorOf(r2),
-                           uintBitsToFloat(r2.w), vectorOf(r3), r3.w, vectorOf(r4), r4.w);
+                           uintBitsToFloat(r2.w), vectorOf(r3), r3.w, vectorOf(r4), uintBitsToFloat(r4.w));
 }
 
 const uint kLightRowRows = 2u;

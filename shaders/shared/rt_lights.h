@@ -14,8 +14,11 @@ struct RtTriangleLight {
     vec3 normal; // unit, lit side
     uint animation; // 1 + index of its colour in the frame's table; 0: it never changes
     vec3 radiance; // luxel units / pi
-    uint reserved;
+    float faintest; // irradiance of the largest channel at or below which it gives nothing far off, luxel units
 };
+
+// From farther than so many times its size, the root of its area, the light of a triangle's middle stands for all.
+SHARED_FLOAT kFarTriangleSizes = 4.0f;
 
 SHARED_CONST kLightTwoSided = 0x1u;
 SHARED_CONST kLightUpward = 0x2u; // shines only where it is seen above the horizon

@@ -82,6 +82,37 @@ TEST(Luxels, FacesWithoutNormalsHaveTheirSides) {
     EXPECT_EQ(normalAt(world, 0, weight), vec3(0)) << "no area";
 }
 
+/// Crates and barrels of this map have no lightmap.
+TEST(Luxels, FacesLitAtTheirVerticesCountWhereAsked) {
+    Q3RT_OPEN_GAME_DATA_OR_SKIP(files);
+    TextureLibrary textures(*files, {});
+    MaterialLibrary materials(*files, textures, {});
+    const auto world = loadWorld(*files, "maps/am_lavactfxl.bsp", materials, {});
+    const auto countUnmapped = [&](LuxelFaces faces) {
+        int count = 0;
+        for (const Luxel& luxel : sampleLuxels(*world, materials, faces, 4000, 1)) {
+            const BspSurface& surface = world->bsp.surfaces[static_cast<size_t>(luxel.surface)];
+            if (surface.lightmap >= 0) continue;
+            ++count;
+            vec3 least(255), most(0);
+            for (int i = 0; i < surface.vertexCount; ++i) {
+                const U8vec4& color = world->bsp.vertices[static_cast<size_t>(surface.firstVertex + i)].color;
+                least = glm::min(least, vec3(color.x, color.y, color.z));
+                most = glm::max(most, vec3(color.x, color.y, color.z));
+            }
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_GE(luxel.baked[c], least[c] - 1e-3f);
+                EXPECT_LE(luxel.baked[c], most[c] + 1e-3f);
+            }
+        }
+        return count;
+    };
+    EXPECT_EQ(countUnmapped(LuxelFaces::Lightmapped), 0);
+    EXPECT_GT(countUnmapped(LuxelFaces::AllBaked), 40);
+    EXPECT_GT(luxelAreaQu2(*world, materials, LuxelFaces::AllBaked),
+              luxelAreaQu2(*world, materials, LuxelFaces::Lightmapped));
+}
+
 /// Maps whose bake is known to be lit by what their scripts still say: the light model's units are right there.
 TEST(Luxels, ExtractedLightsAgreeWithTheBake) {
     Q3RT_OPEN_GAME_DATA_OR_SKIP(files);

@@ -17,6 +17,7 @@ LostLights someLights() {
     lights.lightmap = "0123456789abcdef";
     lights.compensate = 2.5f;
     lights.faintest = 1;
+    lights.faintestSurface = 0.5f;
     lights.bounce = 0.5f;
     lights.ambientValue = 7;
     lights.ambientColor = {1, 0.5f, 0.25f};
@@ -35,6 +36,7 @@ TEST(LostLights, TextIsReadBack) {
     EXPECT_EQ(read.lightmap, lights.lightmap);
     EXPECT_FLOAT_EQ(read.compensate, 2.5f);
     EXPECT_FLOAT_EQ(read.faintest, 1);
+    EXPECT_FLOAT_EQ(read.faintestSurface, 0.5f);
     EXPECT_FLOAT_EQ(read.bounce, 0.5f);
     EXPECT_FLOAT_EQ(read.ambientValue, 7);
     EXPECT_EQ(read.ambientColor, lights.ambientColor);
@@ -127,6 +129,7 @@ TEST(LostLights, ReplaceWhatScriptsSay) {
         // What the file leaves out stays; all of it was darkened by the bake.
         const vec3 expected =
             isNamed ? vec3(1, 0.5f, 0) * static_cast<float>(0.75 * 100 / M_PI) : scripted.triangles[i].radiance;
+        EXPECT_NEAR(light.faintest, 0.5 / 2.5, 1e-5);
         EXPECT_NEAR(glm::length(light.radiance - expected / 2.5f), 0, 1e-4 * double(glm::length(expected)));
         changed += isNamed ? 1 : 0;
     }

@@ -196,6 +196,23 @@ TEST_F(SmallWorld, ALightThatIsTooFaintByThenDoesNotFace) {
     }
 }
 
+TEST_F(SmallWorld, ATriangleThatIsTooFaintByThenDoesNotFace) {
+    m_world.bsp.visibility = {3, 3, 4};
+    TriangleLight light = makeLight({100, 0, 0}, {-1, 0, 0});
+    light.radiance = vec3(100, 10, 1);
+    const float at = glm::dot(light.corner[0] + light.corner[1] + light.corner[2], vec3(1, 0, 0)) / 3;
+    const float atPlane = 100 * light.areaQu2 / (at * at); // along its normal
+    for (const auto& [share, faces] : {std::pair(0.0f, 1u), {0.9f, 1u}, {1.1f, 0u}}) {
+        light.faintest = share * atPlane;
+        const LightRows rows = build({light});
+        EXPECT_EQ(rows.ofCluster(0).facing, 1u);
+        EXPECT_EQ(rows.ofCluster(1).facing, faces) << share;
+        light.reachQu = 50;
+        EXPECT_EQ(build({light}).ofCluster(1).facing, 1u) << "it waves";
+        light.reachQu = 0;
+    }
+}
+
 TEST_F(SmallWorld, WhatMovesIsEverywhere) {
     TriangleLight mover = makeLight({20, 0, 0}, {0, 1, 0}), lava = makeLight({20, 0, 0}, {0, 1, 0});
     mover.bspModel = 1;

@@ -56,7 +56,9 @@ class LostLightTest : public testing::Test {
             m_harness->set(name, value);
         m_harness->loadMap(kMap);
     }
-    double radiance(int frames = kFrames) { return meanOf(m_harness->radiance(kDown, frames)); }
+    double radiance(int frames = kFrames, const test::Camera& camera = kDown) {
+        return meanOf(m_harness->radiance(camera, frames));
+    }
 };
 
 TEST_F(LostLightTest, StandsInForWhatScriptsSay) {
@@ -75,6 +77,22 @@ TEST_F(LostLightTest, WhatIsTooFaintIsLeftOut) {
     m_game.addText(kFile, file("19"));
     ASSERT_TRUE(m_harness->engine().runCommand({"rt_reloadLights"}));
     EXPECT_EQ(radiance(), 0);
+}
+
+TEST_F(LostLightTest, SurfacesThatAreTooFaintFarOffAreLeftOutThere) {
+    const auto file = [](const char* faintest) {
+        return "{ \"classname\" \"worldspawn\" \"_faintestSurface\" \"" + std::string(faintest) + "\" }\n";
+    };
+    const test::Camera corner{.eye = {250, 250, 20}, .pitch = 90, .fovX = 12};
+    const double given = kTestWallAlbedo * squareLightRoom::computeIrradiance({250, 250, 0}, kUp) / 63.75;
+    constexpr int kMoreFrames = 64;   // of an emitter's noise
+    m_game.addText(kFile, file("2")); // each of the two triangles gives 3.5
+    start("1");
+    EXPECT_NEAR(radiance(kMoreFrames, corner), given, 0.02 * given);
+    m_game.addText(kFile, file("4"));
+    ASSERT_TRUE(m_harness->engine().runCommand({"rt_reloadLights"}));
+    EXPECT_EQ(radiance(kFrames, corner), 0);
+    EXPECT_NEAR(radiance(kMoreFrames), radianceOfEmitter(), 0.03 * radianceOfEmitter()) << "near it, always";
 }
 
 TEST_F(LostLightTest, IsReloadedAtOnce) {

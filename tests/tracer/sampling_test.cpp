@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "scene/lights.hpp"
 #include "shader_text.hpp"
 
 namespace q3rt {
@@ -80,6 +81,36 @@ TEST(Sampling, FramesAreOrthonormal) {
         ASSERT_NEAR(dot(glm::cross(frame.tangent, frame.bitangent), n), 1, 1e-5);
     }
     EXPECT_EQ(checked, 10000);
+}
+
+TEST(TriangleLight, GivesNothingWhereItIsFaintAndFar) {
+    TriangleLight light;
+    light.corner[0] = vec3(0, 0, 100), light.corner[1] = vec3(0, 9, 100), light.corner[2] = vec3(9, 0, 100);
+    light.radiance = vec3(20, 400, 1);
+    ASSERT_TRUE(measureTriangle(light));
+    const auto isFaint = [&](const vec3& point, const vec3& normal) {
+        const vec3 *c = light.corner, edge1 = c[1] - c[0], edge2 = c[2] - c[0];
+        const bool result = shader::isTriangleFaint(point, normal, c[0], edge1, edge2, light.normal, light.areaQu2,
+                                                    light.radiance, light.faintest);
+        EXPECT_EQ(result, isTooFaint(light, point, normal)) << "the processor's answer";
+        return result;
+    };
+    const vec3 below(3, 3, 0), up(0, 0, 1);
+    const float given = 400 * light.areaQu2 / (100 * 100); // straight on
+    for (const auto& [share, faint] : {std::pair(0.0f, false), {0.99f, false}, {1.01f, true}}) {
+        light.faintest = share * given;
+        EXPECT_EQ(isFaint(below, up), faint) << share;
+        EXPECT_FALSE(isFaint(vec3(3, 3, 80), vec3(0.999f, 0, 0.04f))) << "grazing, but near";
+    }
+    light.faintest = 0.72f * given;
+    EXPECT_TRUE(isFaint(below, glm::normalize(vec3(1, 0, 1)))) << "by the surface's cosine";
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> place(-200, 200);
+    int faint = 0;
+    for (int i = 0; i < 2000; ++i)
+        faint += isFaint(vec3(place(random), place(random), place(random)), up);
+    EXPECT_GT(faint, 100);
+    EXPECT_LT(faint, 2000);
 }
 
 TEST(TriangleLight, RectangleGivesItsFormFactor) {

@@ -321,6 +321,7 @@ dvec3 DoubleTracer::surfaceLight(const DoubleHit& hit, std::mt19937& random) con
         const double height = glm::dot(hit.position - dvec3(light.corner[0]), dvec3(light.normal));
         // No light reaches its own plane, also where the shading normal leans to it.
         if (std::abs(height) < kOwnSurfaceQu || (height < 0 && !light.twoSided)) return 0.0;
+        if (isTooFaint(light, vec3(hit.position), vec3(hit.normal))) return 0.0;
         const vec3& l = light.radiance;
         return formFactor(hit, light) * double(l.r + l.g + l.b);
     };
