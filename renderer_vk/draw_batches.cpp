@@ -220,12 +220,37 @@ void DrawListBuilder::appendBatch(ViewWork& work, size_t firstItem, size_t lastI
     if (batch.indexCount == 0) return;
     batch.stages = m_stages.evaluate(id, record.stage);
     batch.fog = fogIndex(work, last.fog);
+    if (work.settings.cullTriangles && batch.fog < 0) trimEffects(work, batch, firstItem, lastItem);
     batch.erasesShadows = work.settings.geometry.shadows == Shadows::Volume && material.sort > kShadowVolumeSort;
     if (heldInHand) batch.depthRange = DepthRange::Weapon;
     constexpr uint32_t kUnlit = surfaceParm::kNoDlight | surfaceParm::kSky;
     if (material.sort <= 3 && (material.surfaceFlags & kUnlit) == 0) appendLights(work, batch, firstItem, lastItem);
     work.out.batches.push_back(batch);
     if (work.settings.raster.r_shownormals != 0) appendNormals(work, batch);
+}
+
+/// The vertices of effects are the view's own: they move where the picture begins and ends.
+void DrawListBuilder::trimEffects(ViewWork& work, const DrawBatch& batch, size_t firstItem, size_t lastItem) {
+    if (batch.source != VertexSource::Dynamic || batch.stages.count == 0) return;
+    const std::vector<Stage>& stages = m_materials.get(batch.material).stages;
+    TexturePart shown{vec2(1.0f), vec2(0.0f)};
+    vec2 sizeTexels(0.0f);
+    for (uint32_t i = 0; i < batch.stages.count; ++i) {
+        const StageState& state = m_stages.states()[batch.stages.first + i];
+        const size_t texture = state.unit[0].texture;
+        if (texture >= work.settings.textureParts.size()) return;
+        const TextureParts& parts = work.settings.textureParts[texture];
+        shown.add(findPartShown(stages[i], state, parts));
+        sizeTexels = glm::max(sizeTexels, parts.sizeTexels);
+    }
+    if (shown.least == vec2(0.0f) && shown.greatest == vec2(1.0f)) return;
+    const TriangleView view = triangleView(work, batch);
+    for (size_t i = firstItem; i < lastItem; ++i) {
+        const EntitySurface& surface = work.geometry.surfaces[work.items[i].surface];
+        if (surface.vertexCount != 4) continue;
+        const auto vertices = std::span(work.out.vertices).subspan(work.vertexBase + surface.firstVertex);
+        trimSquare(vertices.first<4>(), shown, sizeTexels, view);
+    }
 }
 
 void DrawListBuilder::cullTriangles(ViewWork& work, const DrawBatch& batch, CullMode cull, size_t firstIndex) {

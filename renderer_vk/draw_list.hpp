@@ -6,6 +6,7 @@
 #include <string>
 
 #include "renderer_vk/draw_data.hpp"
+#include "renderer_vk/effect_trim.hpp"
 #include "renderer_vk/portal.hpp"
 #include "renderer_vk/raster_settings.hpp"
 #include "renderer_vk/shadow_volume.hpp"
@@ -24,7 +25,8 @@ struct DrawListSettings {
     MaterialId sun = 0, flare = 0;
     bool fastSky = false, drawWorld = true;
     bool dynamicLights = true;
-    bool cullTriangles = false; ///< leave out those that no pixel shows
+    bool cullTriangles = false;                 ///< leave out those that no pixel shows
+    std::span<const TextureParts> textureParts; ///< by texture
 };
 
 /// 64-bit key, ascending: shader rank, entity, fog, lit. The world and polys come after all entities.
@@ -87,6 +89,7 @@ class DrawListBuilder {
     void findSkyCoverage(ViewWork& work, size_t firstItem, size_t lastItem);
     TriangleView triangleView(const ViewWork& work, const DrawBatch& batch) const;
     const std::vector<Vertex>& verticesOf(const ViewWork& work, const DrawBatch& batch) const;
+    void trimEffects(ViewWork& work, const DrawBatch& batch, size_t firstItem, size_t lastItem);
     void cullTriangles(ViewWork& work, const DrawBatch& batch, CullMode cull, size_t firstIndex);
     void appendSky(ViewWork& work, const Material& material, MaterialId id, size_t firstItem, size_t lastItem);
     void appendShadowVolumes(ViewWork& work);

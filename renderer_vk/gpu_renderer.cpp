@@ -104,6 +104,7 @@ void GpuRenderer::followSettings() {
                     "r_logFile and r_verbose do nothing, as in the original: Q3RT_VALIDATION=1 in the "
                     "environment has each call of Vulkan checked, developer 1 tells more");
     const int wanted = m_context->device().capabilities().software ? 1 : 2; // the setting from which on it is done
+    result.textureParts = m_context->textures().parts();
     result.cullTriangles = r.r_cullTriangles >= wanted && r.r_nocull == 0 && r.r_showtris == 0 && r.r_shownormals == 0;
 }
 

@@ -24,6 +24,7 @@ void TextureStore::reset() {
     for (uint32_t slot = static_cast<uint32_t>(m_entries.size()); slot-- > 0;)
         m_bindless->remove(slot);
     m_entries.clear();
+    m_parts.clear();
 }
 
 VkSampler TextureStore::samplerOf(const Texture& texture) const {
@@ -62,6 +63,8 @@ void TextureStore::follow(TextureLibrary& library, const TextureFilter& filter, 
         const Texture& texture = library.get(id);
         m_entries.emplace_back();
         create(texture, m_entries[id], uploader);
+        const bool changes = id >= builtinTexture::kScratch0 && id < builtinTexture::kFirstFree;
+        m_parts.push_back(changes ? TextureParts{} : findTextureParts(texture));
         if (!keepTexels) library.dropTexels(id);
         if (m_bindless->add(m_entries[id].image->view(), samplerOf(texture)) != id)
             throw DeviceError("texture slots are out of order: restart the renderer with vid_restart");

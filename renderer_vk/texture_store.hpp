@@ -8,6 +8,7 @@
 #include "gpu/bindless_textures.hpp"
 #include "gpu/gpu_image.hpp"
 #include "gpu/uploader.hpp"
+#include "renderer_vk/effect_trim.hpp"
 #include "scene/texture.hpp"
 
 namespace q3rt {
@@ -30,6 +31,8 @@ class TextureStore {
     VkDescriptorSetLayout layout() const { return m_bindless->layout(); }
     VkDescriptorSet set() const { return m_bindless->set(); } ///< ask while recording
     size_t count() const { return m_entries.size(); }
+    /// Where each shows.
+    std::span<const TextureParts> parts() const { return m_parts; }
 
   private:
     struct Entry {
@@ -45,6 +48,7 @@ class TextureStore {
     GpuImage m_fallback;
     std::unique_ptr<BindlessTextures> m_bindless;
     std::vector<Entry> m_entries;
+    std::vector<TextureParts> m_parts; // by id
 };
 
 } // namespace q3rt
