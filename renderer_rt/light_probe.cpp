@@ -9,6 +9,15 @@
 
 namespace q3rt {
 
+/// Light that comes along a line.
+struct LightProbe::Flux {
+    vec3 way{0};        ///< against the light, of any length
+    vec3 across{0};     ///< irradiance of what faces it, luxel units
+    float share = 1;    ///< of it, that arrives
+    float faintest = 0; ///< irradiance at or below which a surface takes nothing
+    vec3 takenBy(const vec3& normal) const;
+};
+
 namespace {
 
 using namespace glm;
@@ -25,20 +34,11 @@ ProbeWays waysAround(const vec3& axis) {
     return {frame.normal, -frame.normal, frame.tangent, -frame.tangent, frame.bitangent, -frame.bitangent};
 }
 
-/// Light that comes along a line.
-struct Flux {
-    vec3 way{0};        ///< against the light, of any length
-    vec3 across{0};     ///< irradiance of what faces it, luxel units
-    float share = 1;    ///< of it, that arrives
-    float faintest = 0; ///< irradiance at or below which a surface takes nothing
-};
+using Flux = LightProbe::Flux;
 
 void addFlux(const Flux& flux, const ProbeWays& ways, ProbeWays& sum) {
-    const vec3 direction = glm::normalize(flux.way);
-    for (size_t k = 0; k < ways.size(); ++k) {
-        const vec3 given = flux.across * std::max(0.0f, dot(ways[k], direction));
-        if (!isFaint(given, flux.faintest)) sum[k] += flux.share * given;
-    }
+    for (size_t k = 0; k < ways.size(); ++k)
+        sum[k] += flux.takenBy(ways[k]);
 }
 
 Flux lookAtTriangle(const RtTriangleLight& light, const vec3& point, float u, float v) {
@@ -84,6 +84,12 @@ float numberOf(const vec2& place) {
 
 } // namespace
 
+vec3 LightProbe::Flux::takenBy(const vec3& normal) const {
+    if (share == 0.0f) return vec3(0.0f);
+    const vec3 given = across * std::max(0.0f, dot(normal, glm::normalize(way)));
+    return isFaint(given, faintest) ? vec3(0.0f) : share * given;
+}
+
 LightProbe::LightProbe(const World& world, const MaterialLibrary& materials, const LightTables& tables)
     : m_world(world)
     , m_tables(tables)
@@ -106,16 +112,58 @@ LightProbe::LightProbe(const World& world, const MaterialLibrary& materials, con
     m_tracer->accept = [this](uint32_t triangle, const vec2& at) { return numberOf(at) < m_cover[triangle]; };
 }
 
-LightProbe::Seen LightProbe::look(const vec3& point, const vec3& axis, uint32_t rayCount, std::mt19937& random) const {
+const RtLightRow& LightProbe::rowAt(const vec3& point) const {
     const int cluster = m_world.clusterOf(point);
-    const RtLightRow& row = cluster >= 0 && cluster < m_world.bsp.clusterCount
-                                ? m_tables.rows.ofCluster(static_cast<size_t>(cluster))
-                                : m_tables.rows.outside();
+    return cluster >= 0 && cluster < m_world.bsp.clusterCount ? m_tables.rows.ofCluster(static_cast<size_t>(cluster))
+                                                              : m_tables.rows.outside();
+}
+
+LightProbe::Seen LightProbe::look(const vec3& point, const vec3& axis, uint32_t rayCount, std::mt19937& random) const {
+    const RtLightRow& row = rowAt(point);
     const ProbeWays ways = waysAround(axis);
     Seen seen;
     addRow(point, row, ways, rayCount, random, seen.irradiance);
     if (row.seesSky != 0) addSuns(point, ways, seen);
     return seen;
+}
+
+void LightProbe::lookByKind(const vec3& point, const vec3& normal, const Kinds& kinds, uint32_t rayCount,
+                            std::mt19937& random, std::span<vec3> irradiance) const {
+    std::ranges::fill(irradiance, vec3(0.0f));
+    std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
+    const RtLightRow& row = rowAt(point);
+    const auto entries = std::span(m_tables.rows.entries).subspan(row.first, row.facing);
+    std::vector<float> chance(kinds.count, 0.0f), next(kinds.count), passed(kinds.count, 0.0f);
+    for (const RtLightEntry& entry : entries)
+        chance[kinds.ofLight[entry.light]] += 1.0f / entry.weight;
+    const float stratum = 1.0f / static_cast<float>(rayCount);
+    for (float& at : next)
+        at = stratum * uniform(random);
+    // Each kind's rays are evenly apart in the sum of its lights' chances.
+    for (const RtLightEntry& entry : entries) {
+        const uint32_t kind = kinds.ofLight[entry.light];
+        passed[kind] += 1.0f / entry.weight;
+        for (; next[kind] * chance[kind] < passed[kind]; next[kind] += stratum) {
+            const float u = uniform(random), v = uniform(random);
+            irradiance[kind] +=
+                traceSample(point, entry.light, u, v).takenBy(normal) * (entry.weight * chance[kind] * stratum);
+        }
+    }
+    const size_t firstSun = m_tables.triangles.size() + m_tables.points.size();
+    for (size_t s = 0; s < m_tables.others.size() && row.seesSky != 0; ++s) {
+        const RtLight& sun = m_tables.others[s];
+        if (dot(normal, sun.position) > 0.0f && seesSun(point, sun))
+            irradiance[kinds.ofLight[firstSun + s]] += Flux{.way = sun.position, .across = sun.power}.takenBy(normal);
+    }
+}
+
+LightProbe::Flux LightProbe::traceSample(const vec3& point, uint32_t light, float u, float v) const {
+    Flux flux = light < m_tables.triangles.size()
+                    ? lookAtTriangle(m_tables.triangles[light], point, u, v)
+                    : lookAtPoint(m_tables.points[light - m_tables.triangles.size()], point);
+    if (flux.share != 0.0f && (isFaint(flux.across, flux.faintest) || m_tracer->occluded(point, flux.way, 1.0f)))
+        flux.share = 0.0f;
+    return flux;
 }
 
 void LightProbe::addRow(const vec3& point, const RtLightRow& row, const ProbeWays& ways, uint32_t rayCount,
@@ -126,22 +174,22 @@ void LightProbe::addRow(const vec3& point, const RtLightRow& row, const ProbeWay
     for (uint32_t i = 0; i < rayCount; ++i) {
         const DrawnLight drawn = drawLight(m_tables.rows, row, start + i * (~0u / rayCount));
         const float u = uniform(random), v = uniform(random);
-        Flux flux = drawn.light < m_tables.triangles.size()
-                        ? lookAtTriangle(m_tables.triangles[drawn.light], point, u, v)
-                        : lookAtPoint(m_tables.points[drawn.light - m_tables.triangles.size()], point);
-        if (flux.share == 0.0f || isFaint(flux.across, flux.faintest) || m_tracer->occluded(point, flux.way, 1.0f))
-            continue;
+        Flux flux = traceSample(point, drawn.light, u, v);
         flux.share *= drawn.weight / static_cast<float>(rayCount);
-        addFlux(flux, ways, sum);
+        if (flux.share != 0.0f) addFlux(flux, ways, sum);
     }
+}
+
+bool LightProbe::seesSun(const vec3& point, const RtLight& sun) const {
+    CpuHit hit;
+    return m_tracer->closest(point, sun.position, 0.0f, m_farQu, hit) && m_isSky[hit.triangle];
 }
 
 void LightProbe::addSuns(const vec3& point, const ProbeWays& ways, Seen& seen) const {
     float all = 0, arrived = 0;
     for (const RtLight& sun : m_tables.others) {
-        CpuHit hit;
         all += lightWeight(sun.power);
-        if (!m_tracer->closest(point, sun.position, 0.0f, m_farQu, hit) || !m_isSky[hit.triangle]) continue;
+        if (!seesSun(point, sun)) continue;
         arrived += lightWeight(sun.power);
         addFlux({.way = sun.position, .across = sun.power}, ways, seen.irradiance);
     }

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <random>
+#include <span>
 
 #include "accel/cpu_tracer.hpp"
 #include "renderer_rt/world_lights.hpp"
@@ -16,6 +17,8 @@ using ProbeWays = std::array<vec3, 6>;
 /// The map and the tables must outlive it; rows, nodes and lights of the tables must stay as they are.
 class LightProbe {
   public:
+    struct Flux;
+
     LightProbe(const World& world, const MaterialLibrary& materials, const LightTables& tables);
 
     struct Seen {
@@ -26,9 +29,23 @@ class LightProbe {
     /// `axis`: of unit length.
     Seen look(const vec3& point, const vec3& axis, uint32_t rayCount, std::mt19937& random) const;
 
+    /// Which lights belong together: the kind of each light of the tables, triangles, then points, then suns.
+    struct Kinds {
+        std::vector<uint32_t> ofLight;
+        size_t count = 0;
+    };
+    /// What each kind gives to a surface that faces `normal`, into `irradiance`: an unbiased estimate with `rayCount`
+    /// shadow rays to the lights of each kind, and one to each sun.
+    void lookByKind(const vec3& point, const vec3& normal, const Kinds& kinds, uint32_t rayCount, std::mt19937& random,
+                    std::span<vec3> irradiance) const;
+
   private:
+    const RtLightRow& rowAt(const vec3& point) const;
+    /// Of one sample of a light; its share is 0 if something is in the way.
+    Flux traceSample(const vec3& point, uint32_t light, float u, float v) const;
     void addRow(const vec3& point, const RtLightRow& row, const ProbeWays& ways, uint32_t rayCount,
                 std::mt19937& random, ProbeWays& sum) const;
+    bool seesSun(const vec3& point, const RtLight& sun) const;
     void addSuns(const vec3& point, const ProbeWays& ways, Seen& seen) const;
 
     const World& m_world;

@@ -10,6 +10,7 @@
 #include "formats/image.hpp"
 #include "gpu/device.hpp"
 #include "gpu/readback.hpp"
+#include "renderer_rt/baked_strengths.hpp"
 #include "renderer_rt/calibration.hpp"
 #include "renderer_rt/trace_renderer.hpp"
 #include "scene/lost_light_file.hpp"
@@ -56,7 +57,16 @@ void TraceRenderer::loadLights() {
     m_modelLightScale = modelLightScale();
     m_reloadLights = false;
     if (m_lostLights == 0) return;
-    if (const auto lost = readLostLights(engine(), *world())) applyLostLights(*lost, *world(), materials(), m_lights);
+    if (const auto lost = readLostLights(engine(), *world())) {
+        applyLostLights(*lost, *world(), materials(), m_lights);
+        return;
+    }
+    const std::vector<BakedStrength> strengths = estimateStrengths(*world(), materials(), textures(), m_lights);
+    const auto changed = std::ranges::count_if(strengths, [](const BakedStrength& of) { return of.factor != 1; });
+    if (changed > 0)
+        logLine(LogLevel::Info, "%zd of %zu kinds of light are not in the lightmap as the scripts have them: adjusted",
+                changed, strengths.size());
+    applyStrengths(strengths, *world(), materials(), m_lights);
 }
 
 void TraceRenderer::followLights() {

@@ -38,6 +38,7 @@ TraceHarness::TraceHarness(FileSource& files, const std::filesystem::path& modul
     set("r_customheight", std::to_string(height));
     set("r_fullscreen", "0");
     set("rt_backend", "compute");
+    set("rt_lostLights", "0"); // light as the scripts say is what tests know
     m_engine.loadModule(module);
 }
 
