@@ -1,7 +1,8 @@
 #pragma once
 // Trees of what changes its shape from frame to frame. An animated model moves its triangles and keeps them: its tree
-// is built when it is first seen, and later frames only fit the boxes to where the triangles are. What is known by
-// nothing (polys, sprites, beams) gets a quick tree of its own in each frame.
+// is built when it is first seen, and later frames only fit the boxes to where the triangles are. The first tree is a
+// quick one; a good one takes its place in a frame that has time for it, so that a crowd that comes into sight does not
+// hold the frame up. What is known by nothing (polys, sprites, beams) gets a quick tree of its own in each frame.
 
 #include <map>
 
@@ -32,15 +33,19 @@ class MovingTrees {
         std::vector<Source> sources;
         std::vector<uint32_t> indices; ///< of all parts, as built
         uint64_t lastFrame = 0;
+        bool isGood = false; ///< not a quick tree
     };
     static bool hasTriangles(const Model& model, std::span<const TreePart> parts);
     static bool fit(Model& model, std::span<const TreePart> parts);
-    static void build(Model& model, std::span<const TreePart> parts);
+    /// Good if this frame has time for it.
+    void build(Model& model, std::span<const TreePart> parts);
+    bool hasTimeFor(std::span<const TreePart> parts) const;
 
     std::map<std::vector<uint64_t>, Model> m_models;
     std::vector<uint64_t> m_key; ///< work space, as the next
     TreeData m_quick;
     uint64_t m_frame = 0;
+    size_t m_goodTriangles = 0; ///< of good trees that this frame has built
 };
 
 } // namespace q3rt

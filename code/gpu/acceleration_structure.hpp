@@ -98,7 +98,7 @@ class AccelerationStructure {
 };
 
 /// Records builds in one command: a driver spreads small ones over the device, and reads the command once (378 a frame
-/// one by one took 4 ms of the processor). No barrier: recordBuildBarrier() follows.
+/// one by one cost the processor 3 ms more). No barrier: recordBuildBarrier() follows.
 void recordBuilds(VkCommandBuffer commands, AccelerationScratch& scratch, std::span<const BottomBuild> builds);
 /// Builds -> builds and traces: before a top-level build that uses fresh bottom levels, and before the first trace.
 void recordBuildBarrier(Device& device, VkCommandBuffer commands);

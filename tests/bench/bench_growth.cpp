@@ -133,6 +133,7 @@ void benchCulling(const std::string& map, const MapFacts& facts) {
     printQuotient(ms[0] / ms[1], tried[0] / tried[1]);
     printQuotient(ms[0] / ms[1], rays[0] / rays[1]);
     printQuotient(ms[0] / ms[2], tried[0] / tried[2]);
+    printQuotient(ms[0] / ms[2], rays[0] / rays[2]);
     std::printf("\n");
     std::fflush(stdout);
 }
@@ -143,8 +144,8 @@ void runCulling(Pk3FileSource& files, std::vector<std::string> maps) {
         for (const std::string& name : files.list("maps", ".bsp"))
             maps.push_back(name.substr(0, name.size() - 4));
     std::printf("| map | triangle lights | visible share | lights tried a pixel, rt_cullLights 0, 1, 2 | shadow rays "
-                "| ms of light | time 0 / 1 of lights | of rays | 0 / 2 of lights |\n");
-    std::printf("|---|---|---|---|---|---|---|---|---|\n");
+                "| ms of light | time 0 / 1 of lights | of rays | 0 / 2 of lights | of rays |\n");
+    std::printf("|---|---|---|---|---|---|---|---|---|---|\n");
     for (const std::string& map : maps) {
         const MapFacts facts = findFacts(files, map);
         if (facts.spawnPoints == 0) continue;

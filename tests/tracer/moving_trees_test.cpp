@@ -88,6 +88,28 @@ TEST(MovingTrees, WhatCannotBeFittedIsBuilt) {
     EXPECT_TRUE(trees.make(kKey, scattered.parts()).built) << "neighbours are far apart: a fitted tree would be slow";
 }
 
+TEST(MovingTrees, ACrowdComesIntoSightInQuickTrees) {
+    MovingTrees trees;
+    const Dancer still(0);
+    constexpr uint64_t kCrowd = 20;
+    float costAtFirst = 0, costAtLast = 0;
+    for (uint64_t frame = 0; frame < kCrowd; ++frame) {
+        trees.beginFrame();
+        size_t built = 0;
+        for (uint64_t one = 1; one <= kCrowd; ++one) {
+            const MovingTrees::Made made = trees.make(std::array{one}, still.parts());
+            built += made.built ? Dancer::kTriangles : 0;
+            (frame == 0 ? costAtFirst : costAtLast) = surfaceAreaCost(made.tree.bvh); // in the end the last one's
+        }
+        if (frame == 0) {
+            EXPECT_EQ(built, kCrowd * Dancer::kTriangles) << "all are there at once";
+        } else {
+            EXPECT_LE(built, 1000u) << frame;
+        }
+    }
+    EXPECT_LT(costAtLast, costAtFirst) << "and all are good in the end";
+}
+
 TEST(MovingTrees, ForgetsWhatIsNoLongerShown) {
     MovingTrees trees;
     const Dancer still(0);
