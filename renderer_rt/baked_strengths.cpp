@@ -16,8 +16,6 @@ namespace {
 constexpr size_t kLuxels = 8192;
 /// Shadow rays of a luxel to each kind in each of two estimates.
 constexpr uint32_t kRays = 32;
-/// How far off their faces map compilers put their samples, qu.
-constexpr float kLuxelOffsetQu = 1;
 /// Places within such a box that face alike are near one another, qu. A few luxels wide, and smaller than rooms.
 constexpr float kNearQu = 128;
 constexpr size_t kLeastOfGroup = 3;
@@ -120,7 +118,7 @@ void compareWithinGroups(const std::vector<Luxel>& luxels, size_t width, Columns
 
 Columns traceColumns(const World& world, const LightProbe& probe, const Kinds& kinds, std::vector<Luxel>& luxels) {
     std::erase_if(luxels, [&](const Luxel& luxel) {
-        return world.clusterOf(luxel.position + kLuxelOffsetQu * luxel.normal) < 0; // covered by another face
+        return world.clusterOf(samplePointOf(luxel)) < 0; // covered by another face
     });
     const size_t width = kinds.names.size();
     Columns columns;
@@ -132,7 +130,7 @@ Columns traceColumns(const World& world, const LightProbe& probe, const Kinds& k
         std::mt19937 random(static_cast<unsigned>(i));
         const Luxel& luxel = luxels[i];
         for (auto& half : columns.kinds)
-            probe.lookByKind(luxel.position + kLuxelOffsetQu * luxel.normal, luxel.normal, kinds.lights, kRays, random,
+            probe.lookByKind(samplePointOf(luxel), luxel.normal, kinds.lights, kRays, random,
                              std::span(half).subspan(i * width, width));
     });
     return columns;
@@ -176,7 +174,6 @@ class StrengthFit {
             }
         return factors;
     }
-    double evidenceOf(size_t k) const { return m_doubt > 0 ? m_products[k * m_width + k] / m_doubt : 0; }
 
   private:
     size_t m_width;
@@ -201,7 +198,7 @@ std::vector<BakedStrength> estimateStrengths(const World& world, const MaterialL
     for (size_t k = 0; k < kinds.names.size(); ++k) {
         // Not a number where a script's light is beyond all numbers.
         const bool changed = std::isfinite(factors[k]) && std::abs(factors[k] - 1) > kSureChange;
-        strengths.push_back({kinds.names[k], changed ? static_cast<float>(factors[k]) : 1.0f, fit.evidenceOf(k)});
+        strengths.push_back({kinds.names[k], changed ? static_cast<float>(factors[k]) : 1.0f});
     }
     return strengths;
 }

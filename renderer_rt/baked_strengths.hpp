@@ -13,9 +13,8 @@ namespace q3rt {
 
 /// Lights that share their strength.
 struct BakedStrength {
-    std::string name;    ///< material, "sun N" or "entities"
-    float factor = 1;    ///< of what the scripts say; 0: the bake had none of it
-    double evidence = 0; ///< what these lights explain of the lightmap's contrast, of what would be needed to tell
+    std::string name; ///< material, "sun N" or "entities"
+    float factor = 1; ///< of what the scripts say; 0: the bake had none of it
 };
 
 /// Of all kinds that the lights are of. Deterministic. The lights stay as they are.

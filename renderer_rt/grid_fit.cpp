@@ -26,8 +26,6 @@ constexpr float kToleranceLuxels = 3, kToleranceShare = 0.1f;
 constexpr double kLuxelsPerCell = 8;
 /// No more of a map of absurd extent: its light is noise, and loading it must end.
 constexpr double kMostLuxels = 1 << 20;
-/// How far off their faces map compilers put their samples, qu.
-constexpr float kLuxelOffsetQu = 1;
 /// How many luxels at a cell's own place outweigh what it begins with. Neighbours that share their luxels can't be told
 /// apart: this keeps one from taking the light of the other.
 constexpr float kFirstGuessLuxels = 2;
@@ -197,9 +195,9 @@ std::vector<LuxelLack> findLacks(const World& world, const MaterialLibrary& mate
     parallelFor(luxels.size(), [&](size_t i) {
         const Luxel& luxel = luxels[i];
         const vec3 offset = kLuxelOffsetQu * luxel.normal;
-        if (world.clusterOf(luxel.position + offset) < 0) return; // covered by another face
+        if (world.clusterOf(samplePointOf(luxel)) < 0) return; // covered by another face
         std::mt19937 random(static_cast<unsigned>(i));
-        const LightProbe::Seen seen = probe.look(luxel.position + offset, luxel.normal, kLuxelRays, random);
+        const LightProbe::Seen seen = probe.look(samplePointOf(luxel), luxel.normal, kLuxelRays, random);
         vec3 lights = ambient + seen.irradiance[0];
         const bool thin = isThin(materials.get(world.surfaces[static_cast<size_t>(luxel.surface)].material));
         if (thin) lights += probe.look(luxel.position - offset, -luxel.normal, kLuxelRays, random).irradiance[0];

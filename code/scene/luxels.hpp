@@ -15,6 +15,10 @@ struct Luxel {
     int surface = -1;
 };
 
+/// Where the map compilers sampled it: a little off its face.
+inline constexpr float kLuxelOffsetQu = 1;
+inline vec3 samplePointOf(const Luxel& luxel) { return luxel.position + kLuxelOffsetQu * luxel.normal; }
+
 /// Unit normal at a point of the triangle whose corners begin at World::indices[firstIndex], `weight` of each: that of
 /// its vertices, or, where a compiler left them without, of the side from which the corners go clockwise. 0: it has
 /// none.

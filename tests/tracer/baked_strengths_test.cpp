@@ -54,7 +54,7 @@ TEST_F(BakedStrengths, WhatTheBakeHadNotIsDark) {
 TEST_F(BakedStrengths, NothingToJudgeIsNothingToDo) {
     EXPECT_TRUE(estimateStrengths(*world, materials, textures, {}).empty());
     LightSet none;
-    applyStrengths({{"textures/none", 0, 0}}, *world, materials, none);
+    applyStrengths({{"textures/none", 0}}, *world, materials, none);
     EXPECT_TRUE(none.triangles.empty());
 }
 
