@@ -11,6 +11,7 @@
 #include "host/commands/commands.hpp"
 #include "host/common/json_text.hpp"
 #include "host/common/option_checks.hpp"
+#include "host/common/progress.hpp"
 #include "host/common/session.hpp"
 #include "host/inspect/census.hpp"
 #include "host/inspect/luxel_table.hpp"

@@ -13,6 +13,7 @@
 #include "host/common/json_text.hpp"
 #include "host/common/option_checks.hpp"
 #include "host/common/output_file.hpp"
+#include "host/common/progress.hpp"
 #include "host/common/setting_checks.hpp"
 #include "host/inspect/lost_light_files.hpp"
 #include "host/packaged/engine_process.hpp"

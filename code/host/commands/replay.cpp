@@ -8,10 +8,12 @@
 
 #include "base/error.hpp"
 #include "host/commands/commands.hpp"
+#include "host/common/interrupt.hpp"
 #include "host/common/json_text.hpp"
 #include "host/common/option_checks.hpp"
 #include "host/common/output_file.hpp"
 #include "host/common/session.hpp"
+#include "host/common/progress.hpp"
 #include "host/common/setting_checks.hpp"
 #include "host/headless/replayer.hpp"
 #include "host/still/map_stage.hpp"
@@ -107,6 +109,7 @@ void runReplay(const ReplayArguments& arguments) {
             continue;
         }
         const bool chosen = (frame.number - first) % arguments.every == 0;
+            throwIfInterrupted();
         const bool capture = output.wantsPictures() && chosen;
         const Replayer::Result result = drawFrame(replayer, engine, frame, arguments.accumulate,
                                                   capture ? Replayer::Draw::Capture : Replayer::Draw::Frame);

@@ -10,6 +10,7 @@
 #include "host/commands/commands.hpp"
 #include "host/common/json_text.hpp"
 #include "host/common/output_file.hpp"
+#include "host/common/progress.hpp"
 #include "host/common/session.hpp"
 #include "host/headless/replayer.hpp"
 #include "host/still/map_stage.hpp"

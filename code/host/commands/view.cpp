@@ -14,6 +14,7 @@
 #include "host/common/file_bytes.hpp"
 #include "host/common/option_checks.hpp"
 #include "host/common/output_file.hpp"
+#include "host/common/progress.hpp"
 #include "host/common/setting_checks.hpp"
 #include "host/still/map_stage.hpp"
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -13,7 +11,6 @@
 #include "formats/bsp.hpp"
 #include "formats/image.hpp"
 #include "host/common/file_bytes.hpp"
-#include "host/common/interrupt.hpp"
 #include "host/common/json_text.hpp"
 #include "host/common/option_checks.hpp"
 #include "host/headless/nearest_name.hpp"
@@ -196,38 +193,6 @@ std::vector<std::string> RecordedFiles::list(std::string_view directory, std::st
 
 void writePng(const fs::path& path, const HostFrame& frame) {
     writeFileBytes(path, encodePng(frame.width, frame.height, 3, frame.rgb));
-}
-
-Progress::Progress(std::string what, size_t total)
-    : m_what(std::move(what))
-    , m_total(total)
-    , m_terminal(isatty(STDERR_FILENO) != 0)
-    , m_start(std::chrono::steady_clock::now())
-    , m_last(m_start) {}
-
-Progress::~Progress() {
-    if (m_shown && m_terminal) std::fprintf(stderr, "\n");
-}
-
-void Progress::advance(size_t done) {
-    if (done == 0) return throwIfInterrupted();
-    const bool known = m_total >= done && m_total > 0;
-    const std::string at = m_what + (known ? formatText(" %zu of %zu", done, m_total) : formatText(" %zu", done));
-    advance(at, known ? static_cast<double>(done) / static_cast<double>(m_total) : 0);
-}
-
-void Progress::advance(const std::string& at, double share) {
-    throwIfInterrupted();
-    using namespace std::chrono;
-    const auto now = steady_clock::now();
-    const auto interval = m_terminal ? milliseconds(200) : seconds(5);
-    const bool isLastOfLine = share >= 1 && m_shown && m_terminal;
-    if (now - m_last < interval && !isLastOfLine) return;
-    m_last = now;
-    m_shown = true;
-    const double elapsed = duration<double>(now - m_start).count();
-    const std::string left = share > 0 ? formatText(", %.0f s left", elapsed / share * (1 - share)) : "";
-    std::fprintf(stderr, "%s%s%s%s", m_terminal ? "\r" : "", at.c_str(), left.c_str(), m_terminal ? "   " : "\n");
 }
 
 std::string countOf(size_t count, const char* what) {

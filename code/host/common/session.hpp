@@ -1,8 +1,6 @@
 #pragma once
-// What the commands that run a renderer share: its module, the game's files, options, progress and the summary of
-// times.
+// What the commands that run a renderer share: its module, the game's files, options and the summary of times.
 
-#include <chrono>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -62,24 +60,6 @@ class RecordedFiles : public FileSource {
 };
 
 void writePng(const std::filesystem::path& path, const HostFrame& frame);
-
-/// A line on stderr that says how far a long work is and when it ends; on a terminal it stays one line. The place where
-/// the user's Ctrl-C takes effect: advance() throws Interrupted.
-class Progress {
-  public:
-    Progress(std::string what, size_t total);
-    ~Progress();
-    void advance(size_t done);
-    /// Of work whose steps differ in length: `at` names the step, `share` of the whole is done, 0 to 1.
-    void advance(const std::string& at, double share);
-
-  private:
-    std::string m_what;
-    size_t m_total;
-    bool m_terminal;
-    bool m_shown = false;
-    std::chrono::steady_clock::time_point m_start, m_last;
-};
 
 /// "1 frame", "2 frames".
 std::string countOf(size_t count, const char* what);

@@ -1,5 +1,4 @@
 #include "host/inspect/doctor.hpp"
-#include "host/packaged/engine_process.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -14,6 +13,8 @@
 #include "gpu/software_driver.hpp"
 #include "host/common/output_file.hpp"
 #include "scene/world.hpp"
+#include "host/common/progress.hpp"
+#include "host/packaged/engine_process.hpp"
 #include "tracing_code.hpp"
 
 namespace q3rt {

@@ -8,6 +8,7 @@
 #include "base/log.hpp"
 #include "host/common/file_bytes.hpp"
 #include "host/common/output_file.hpp"
+#include "host/common/progress.hpp"
 
 namespace q3rt {
 namespace {

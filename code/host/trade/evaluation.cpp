@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "host/common/file_bytes.hpp"
 #include "host/common/output_file.hpp"
+#include "host/common/progress.hpp"
 #include "host/headless/replayer.hpp"
 #include "host/trade/evaluation_figures.hpp"
 

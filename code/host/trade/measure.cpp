@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "host/common/interrupt.hpp"
+#include "host/common/progress.hpp"
 #include "metrics/image_metrics.hpp"
 #include "metrics/statistics.hpp"
 

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "host/common/progress.hpp"
 
 namespace q3rt {
 namespace {
