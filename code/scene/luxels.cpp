@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
+
+#include "base/parallel.hpp"
 
 namespace q3rt {
 namespace {
 
-/// How far off the face map compilers put their sample, qu.
-constexpr float kSampleOffsetQu = 1.0f;
 /// Where the ratio of traced to baked light says something, luxel units.
 constexpr double kRatioThreshold = 25;
 
@@ -169,21 +168,15 @@ double luxelAreaQu2(const World& world, const MaterialLibrary& materials, LuxelF
 }
 
 LuxelReport checkLuxels(const World& world, const MaterialLibrary& materials, const LightSet& lights, size_t count,
-                        uint32_t seed, unsigned threadCount) {
+                        uint32_t seed, const std::function<void()>& mayGoOn) {
     const std::vector<Luxel> luxels = sampleLuxels(world, materials, LuxelFaces::Lightmapped, count, seed);
     const DirectLightTracer tracer(world, materials, lights);
     std::vector<DirectLight> traced(luxels.size());
-    std::vector<std::thread> threads;
-    for (unsigned t = 0; t < std::max(1u, threadCount); ++t)
-        threads.emplace_back([&, t] {
-            for (size_t i = t; i < luxels.size(); i += std::max(1u, threadCount)) {
-                std::mt19937 random(seed + 1 + static_cast<uint32_t>(i)); // a point's draws don't depend on threads
-                traced[i] =
-                    tracer.at(luxels[i].position + kSampleOffsetQu * luxels[i].normal, luxels[i].normal, {}, random);
-            }
-        });
-    for (std::thread& thread : threads)
-        thread.join();
+    parallelFor(luxels.size(), [&](size_t i) {
+        if (mayGoOn) mayGoOn();
+        std::mt19937 random(seed + 1 + static_cast<uint32_t>(i));
+        traced[i] = tracer.at(samplePointOf(luxels[i]), luxels[i].normal, {}, random);
+    });
     return summarise(luxels, traced);
 }
 

@@ -2,6 +2,7 @@
 // The check that the baked light makes possible: at random points of lightmapped faces, direct light from the extracted
 // lights beside the map's own luxel. Says how much of a map's light survives in its data.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -46,7 +47,8 @@ struct LuxelReport {
     double medianRatio = 0;    ///< traced / baked where traced > 25
 };
 
+/// `mayGoOn` is called again and again, from several threads; what it throws ends the work.
 LuxelReport checkLuxels(const World& world, const MaterialLibrary& materials, const LightSet& lights, size_t count,
-                        uint32_t seed, unsigned threadCount);
+                        uint32_t seed, const std::function<void()>& mayGoOn = {});
 
 } // namespace q3rt

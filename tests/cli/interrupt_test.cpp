@@ -87,5 +87,12 @@ TEST_F(Interrupt, AReplayLeavesWholePictures) {
         EXPECT_TRUE(name.ends_with(".png")) << name;
 }
 
+// Minutes of work between two lines of output.
+TEST_F(Interrupt, LuxelsAreNotComparedToTheEnd) {
+    const std::vector<std::string> info = {"info", "--map", "oa_dm1", "--luxels", "--points", "10000000"};
+    int looks = 0;
+    EXPECT_EQ(interruptQ3rt(info, m_environment, SIGINT, [&] { return ++looks > 100; }).exitCode, 128 + SIGINT);
+}
+
 } // namespace
 } // namespace q3rt::test

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -125,7 +124,7 @@ TEST(Luxels, ExtractedLightsAgreeWithTheBake) {
         MaterialLibrary materials(*files, textures, {});
         const auto world = loadWorld(*files, c.map, materials, {});
         const LightSet lights = extractLights(*world, materials);
-        const LuxelReport report = checkLuxels(*world, materials, lights, 1000, 1, std::thread::hardware_concurrency());
+        const LuxelReport report = checkLuxels(*world, materials, lights, 1000, 1);
         std::printf("%s: %zu lights, traced %.1f (surfaces %.1f, sun %.1f, sky %.1f, points %.1f), baked %.1f, "
                     "correlation %.2f, "
                     "slope %.2f, explained %.0f %%, median ratio %.2f\n",

@@ -1,10 +1,10 @@
 #include "host/inspect/luxel_table.hpp"
 
 #include <cstdio>
-#include <thread>
 
 #include <nlohmann/json.hpp>
 
+#include "host/common/interrupt.hpp"
 #include "host/common/json_text.hpp"
 #include "scene/luxels.hpp"
 
@@ -23,8 +23,7 @@ void printLuxelHeader() {
 
 void printLuxels(const std::string& map, const World& world, const MaterialLibrary& materials, const LightSet& lights,
                  size_t count, bool json) {
-    const LuxelReport r =
-        checkLuxels(world, materials, lights, count, kSeed, std::max(1u, std::thread::hardware_concurrency()));
+    const LuxelReport r = checkLuxels(world, materials, lights, count, kSeed, throwIfInterrupted);
     if (json) {
         const nlohmann::ordered_json line = {{"map", map},
                                              {"triangle_lights", lights.triangles.size()},
