@@ -5,19 +5,13 @@
 #include <cstring>
 
 #include "base/error.hpp"
+#include "formats/text_case.hpp"
 
 namespace q3rt {
 namespace {
 
 /// The engine cuts a printed message at 4096 characters.
 constexpr size_t kPrintBytes = 4000;
-
-std::string lowerCase(std::string_view text) {
-    std::string lower(text);
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    return lower;
-}
 
 /// A file's bytes between the engine's stack and ours.
 struct FetchedFile {
@@ -125,13 +119,13 @@ Cvar& EngineImports::cvar(std::string_view name, std::string_view defaultValue, 
     // Asked for every time: that is when a latched value takes effect.
     cvar_t* raw = m_guard.call([&] { return m_imports.Cvar_Get(cvarName.c_str(), value.c_str(), flags); });
     if (!raw) throw UsageError("the engine refuses the cvar name '" + cvarName + "'");
-    std::unique_ptr<EngineCvar>& known = m_cvars[lowerCase(name)];
+    std::unique_ptr<EngineCvar>& known = m_cvars[toLowerAscii(name)];
     if (!known || known->raw() != raw) known = std::make_unique<EngineCvar>(raw);
     return *known;
 }
 
 cvar_t* EngineImports::findCvar(const std::string& name) {
-    const auto known = m_cvars.find(lowerCase(name));
+    const auto known = m_cvars.find(toLowerAscii(name));
     return known == m_cvars.end() ? nullptr : known->second->raw();
 }
 
@@ -153,14 +147,14 @@ void EngineImports::setCvar(std::string_view name, std::string_view value) {
 
 void EngineImports::addCommand(std::string_view name, void (*function)()) {
     const std::string command(name);
-    const bool known = m_commands.contains(lowerCase(name));
+    const bool known = m_commands.contains(toLowerAscii(name));
     if (!known) m_guard.call([&] { m_imports.Cmd_AddCommand(command.c_str(), m_commandEntry); });
-    m_commands[lowerCase(name)] = function;
+    m_commands[toLowerAscii(name)] = function;
 }
 
 void EngineImports::removeCommand(std::string_view name) {
     const std::string command(name);
-    m_commands.erase(lowerCase(name));
+    m_commands.erase(toLowerAscii(name));
     m_guard.call([&] { m_imports.Cmd_RemoveCommand(command.c_str()); }, ImportKind::NeverThrows);
 }
 
@@ -172,7 +166,7 @@ void EngineImports::removeAllCommands() {
 void EngineImports::runCommand() {
     const std::vector<std::string> arguments = commandArguments();
     if (arguments.empty()) return;
-    const auto command = m_commands.find(lowerCase(arguments[0]));
+    const auto command = m_commands.find(toLowerAscii(arguments[0]));
     if (command != m_commands.end()) command->second();
 }
 

@@ -286,21 +286,8 @@ void addSweepOptions(CLI::App& command, TradeArguments& a) {
                     "A reference needs no more frames when it is so near to the truth by its own word: 1 - SSIM")
         ->check(number(0))
         ->capture_default_str();
-    command
-        .add_option_function<std::vector<std::string>>(
-            "--reference-set",
-            [&a](const std::vector<std::string>& texts) {
-                for (const std::string& text : texts) {
-                    const size_t equals = text.find('=');
-                    if (equals == 0 || equals == std::string::npos)
-                        throw CLI::ValidationError("--reference-set", "'" + text + "': write CVAR=VALUE");
-                    a.referenceSet.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-                }
-            },
-            "Set a cvar for the reference only; may be given several times")
-        ->type_name("CVAR=VALUE")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    addSetOption(command, a.referenceSet, "--reference-set",
+                 "Set a cvar for the reference only; may be given several times");
 }
 
 } // namespace

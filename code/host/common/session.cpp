@@ -10,6 +10,7 @@
 #include "base/log.hpp"
 #include "formats/bsp.hpp"
 #include "formats/image.hpp"
+#include "formats/text_case.hpp"
 #include "host/common/file_bytes.hpp"
 #include "host/common/json_text.hpp"
 #include "host/common/option_checks.hpp"
@@ -75,19 +76,19 @@ PictureSize parseSize(const std::string& text) {
                                 text.c_str(), kLeast, kMost));
 }
 
-void addSetOption(CLI::App& command, CvarList& cvars) {
+void addSetOption(CLI::App& command, CvarList& cvars, const char* name, const char* meaning) {
     command
         .add_option_function<std::vector<std::string>>(
-            "--set",
-            [&cvars](const std::vector<std::string>& texts) {
+            name,
+            [&cvars, name](const std::vector<std::string>& texts) {
                 for (const std::string& text : texts) {
                     const size_t equals = text.find('=');
                     if (equals == 0 || equals == std::string::npos)
-                        throw CLI::ValidationError("--set", "'" + text + "' sets nothing: write CVAR=VALUE");
+                        throw CLI::ValidationError(name, "'" + text + "' sets nothing: write CVAR=VALUE");
                     cvars.emplace_back(text.substr(0, equals), text.substr(equals + 1));
                 }
             },
-            "Set a cvar for this run; may be given several times")
+            meaning)
         ->type_name("CVAR=VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -181,9 +182,7 @@ void RecordedFiles::findAliases() {
 
 std::optional<std::vector<std::byte>> RecordedFiles::read(std::string_view name) {
     if (auto file = m_source->read(name)) return file;
-    std::string lower(name);
-    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
-    const auto alias = m_aliases.find(lower);
+    const auto alias = m_aliases.find(toLowerAscii(name));
     return alias == m_aliases.end() ? std::nullopt : m_source->read(alias->second);
 }
 

@@ -32,7 +32,8 @@ void addRendererOption(CLI::App& command, std::string& renderer);
 CLI::Option* addMapOption(CLI::App& command, std::string& map);
 /// `usual` is what the help calls a size that is not given.
 void addSizeOption(CLI::App& command, PictureSize& size, const char* usual = nullptr);
-void addSetOption(CLI::App& command, CvarList& cvars);
+void addSetOption(CLI::App& command, CvarList& cvars, const char* name = "--set",
+                  const char* meaning = "Set a cvar for this run; may be given several times");
 /// From WIDTHxHEIGHT. Throws UsageError.
 PictureSize parseSize(const std::string& text);
 

@@ -6,19 +6,13 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "formats/text_case.hpp"
 #include "host/headless/nearest_name.hpp"
 
 namespace q3rt {
 namespace {
 
 constexpr int kLatch = 0x20, kUserCreated = 0x80;
-
-std::string keyOf(std::string_view name) {
-    std::string key(name);
-    for (char& c : key)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return key;
-}
 
 /// `text` if the cvar's range holds it, else the nearest value that it holds; `reset` for what is no number.
 std::string withinRange(const cvar_t& cvar, const std::string& text, const std::string& reset) {
@@ -69,7 +63,7 @@ void CvarTable::assign(Entry& entry, std::string value) {
 }
 
 cvar_t* CvarTable::get(std::string_view name, std::string_view defaultValue, int flags) {
-    std::unique_ptr<Entry>& slot = m_entries[keyOf(name)];
+    std::unique_ptr<Entry>& slot = m_entries[toLowerAscii(name)];
     if (!slot) {
         slot = std::make_unique<Entry>();
         slot->name = name;
@@ -86,7 +80,7 @@ cvar_t* CvarTable::get(std::string_view name, std::string_view defaultValue, int
 }
 
 void CvarTable::set(std::string_view name, std::string_view value) {
-    std::unique_ptr<Entry>& slot = m_entries[keyOf(name)];
+    std::unique_ptr<Entry>& slot = m_entries[toLowerAscii(name)];
     if (!slot) {
         preset(name, value);
         return;
@@ -99,7 +93,7 @@ void CvarTable::set(std::string_view name, std::string_view value) {
 }
 
 void CvarTable::preset(std::string_view name, std::string_view value) {
-    std::unique_ptr<Entry>& slot = m_entries[keyOf(name)];
+    std::unique_ptr<Entry>& slot = m_entries[toLowerAscii(name)];
     if (!slot) {
         slot = std::make_unique<Entry>();
         slot->name = name;
@@ -109,7 +103,7 @@ void CvarTable::preset(std::string_view name, std::string_view value) {
 }
 
 void CvarTable::setRange(cvar_t* cvar, float minimum, float maximum, bool integral) {
-    Entry& entry = *m_entries.at(keyOf(cvar->name));
+    Entry& entry = *m_entries.at(toLowerAscii(cvar->name));
     cvar->validate = 1;
     cvar->min = minimum;
     cvar->max = maximum;
@@ -118,13 +112,13 @@ void CvarTable::setRange(cvar_t* cvar, float minimum, float maximum, bool integr
 }
 
 void CvarTable::describe(cvar_t* cvar, std::string_view text) {
-    Entry& entry = *m_entries.at(keyOf(cvar->name));
+    Entry& entry = *m_entries.at(toLowerAscii(cvar->name));
     entry.description = text;
     cvar->description = entry.description.data();
 }
 
 cvar_t* CvarTable::find(std::string_view name) const {
-    const auto found = m_entries.find(keyOf(name));
+    const auto found = m_entries.find(toLowerAscii(name));
     return found == m_entries.end() ? nullptr : &found->second->cvar;
 }
 
@@ -134,7 +128,7 @@ std::string CvarTable::value(std::string_view name) const {
 }
 
 std::string CvarTable::complaint(std::string_view name) const {
-    const auto found = m_entries.find(keyOf(name));
+    const auto found = m_entries.find(toLowerAscii(name));
     if (found == m_entries.end() || found->second->cvar.flags & kUserCreated) {
         std::vector<std::string> declared;
         for (const auto& [key, entry] : m_entries)

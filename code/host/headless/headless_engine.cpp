@@ -131,35 +131,19 @@ std::optional<HostFrame> HeadlessEngine::endFrame(bool capture) {
     std::vector<byte> captured(pixels * 4 + 64), encoded(pixels * 4 + 64);
     byte* const captureBytes = captured.data();
     byte* const encodeBytes = encoded.data();
-    m_frameArrived = false;
+    m_frame = {};
     enter([=](const refexport_t& module) {
         // The OpenGL renderers read the picture before their last run of pictures is drawn: an empty one ends that run.
         module.DrawStretchPic(0, 0, 0, 0, 0, 0, 0, 0, 0);
         module.TakeVideoFrame(width, height, captureBytes, encodeBytes, 0);
         module.EndFrame(nullptr, nullptr);
     });
-    if (!m_frameArrived) throw UsageError(formatText("%s: the module gave no picture", m_modulePath.c_str()));
+    if (m_frame.width == 0) throw UsageError(formatText("%s: the module gave no picture", m_modulePath.c_str()));
     return std::move(m_frame);
 }
 
-/// Rows of BGR, bottom row first, each padded to 4 bytes.
 void HeadlessEngine::takeVideoFrame(const byte* bgr, int size) {
-    const auto width = static_cast<size_t>(m_config.vidWidth), height = static_cast<size_t>(m_config.vidHeight);
-    const size_t rowBytes = (width * 3 + 3) & ~size_t{3};
-    if (static_cast<size_t>(size) != rowBytes * height) return;
-    m_frame.width = m_config.vidWidth;
-    m_frame.height = m_config.vidHeight;
-    m_frame.rgb.resize(width * height * 3);
-    for (size_t y = 0; y < height; ++y) {
-        const byte* from = bgr + (height - 1 - y) * rowBytes;
-        uint8_t* to = m_frame.rgb.data() + y * width * 3;
-        for (size_t x = 0; x < width; ++x, from += 3, to += 3) {
-            to[0] = from[2];
-            to[1] = from[1];
-            to[2] = from[0];
-        }
-    }
-    m_frameArrived = true;
+    m_frame = frameFromVideo(m_config.vidWidth, m_config.vidHeight, {bgr, static_cast<size_t>(size)});
 }
 
 bool HeadlessEngine::runCommand(const std::vector<std::string>& arguments) {

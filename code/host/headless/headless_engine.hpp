@@ -19,14 +19,9 @@
 #include "base/file_source.hpp"
 #include "base/log.hpp"
 #include "host/headless/cvar_table.hpp"
+#include "host/headless/host_frame.hpp"
 
 namespace q3rt {
-
-/// 8-bit RGB, top row first.
-struct HostFrame {
-    int width = 0, height = 0;
-    std::vector<uint8_t> rgb;
-};
 
 class HeadlessEngine {
   public:
@@ -115,7 +110,6 @@ class HeadlessEngine {
     std::map<std::string, std::vector<std::byte>> m_filesWritten;
     std::vector<void*> m_hunk; ///< freed at every registration end, as the engine's
     HostFrame m_frame;
-    bool m_frameArrived = false;
 };
 
 } // namespace q3rt

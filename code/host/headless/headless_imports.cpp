@@ -6,19 +6,13 @@
 #include <cstring>
 
 #include "base/log.hpp"
+#include "formats/text_case.hpp"
 #include "host/headless/headless_engine.hpp"
 
 namespace q3rt {
 namespace {
 
 HeadlessEngine* theEngine = nullptr;
-
-std::string lowerCase(const char* text) {
-    std::string lower(text);
-    for (char& c : lower)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return lower;
-}
 
 char* copyText(const std::string& text) {
     char* copy = static_cast<char*>(std::malloc(text.size() + 1));
@@ -163,7 +157,7 @@ void HeadlessImports::addFileImports(refimport_t& t) {
         if (buffer) *buffer = nullptr;
         const auto file = theEngine->m_files.read(name);
         if (!file) return -1;
-        theEngine->m_filesRead.insert(lowerCase(name));
+        theEngine->m_filesRead.insert(toLowerAscii(name));
         if (!buffer) return static_cast<long>(file->size());
         auto* lent = static_cast<char*>(std::malloc(file->size() + 1));
         if (!file->empty()) std::memcpy(lent, file->data(), file->size());

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "formats/text_case.hpp"
 
 namespace q3rt {
 namespace {
@@ -14,12 +15,6 @@ constexpr const char* kMachineCvars[] = {"r_mode",        "r_customwidth",  "r_c
                                          "r_fullscreen",  "r_noborder",     "r_centerwindow",   "r_allowresize",
                                          "r_sdldriver",   "r_swapinterval", "r_availablemodes", "r_displayrefresh",
                                          "q3rt_wantstats"};
-
-std::string lowerCase(std::string text) {
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return text;
-}
 
 int lookUp(const std::unordered_map<int, int>& handles, int number) {
     const auto found = handles.find(number);
@@ -107,7 +102,7 @@ struct Replayer::Player {
         enter([&](const refexport_t& module) { module.RemapShader(e.from.c_str(), e.to.c_str(), offset); });
     }
     void operator()(const event::CvarValue& e) const {
-        if (!stateful || e.isDefault || replayer.m_fixedCvars.contains(lowerCase(e.name))) return;
+        if (!stateful || e.isDefault || replayer.m_fixedCvars.contains(toLowerAscii(e.name))) return;
         replayer.m_engine.cvars.preset(e.name, e.value);
     }
     void operator()(const event::Clock& e) const { replayer.m_engine.clockMs = e.ms; }
@@ -240,10 +235,10 @@ Replayer::Replayer(const Recording& recording, HeadlessEngine& engine, const Opt
     m_fixedCvars.insert(std::begin(kMachineCvars), std::end(kMachineCvars));
     for (const auto& [name, value] : options.cvars) {
         engine.cvars.preset(name, value);
-        m_fixedCvars.insert(lowerCase(name));
+        m_fixedCvars.insert(toLowerAscii(name));
     }
     engine.cinematics.play = [this](std::string_view name) {
-        const auto found = m_cinematicHandles.find(lowerCase(std::string(name)));
+        const auto found = m_cinematicHandles.find(toLowerAscii(name));
         return found == m_cinematicHandles.end() ? -1 : found->second;
     };
     engine.cinematics.run = [this](int handle) { return m_cinematicStatus[handle]; };
@@ -260,7 +255,7 @@ Replayer::Replayer(const Recording& recording, HeadlessEngine& engine, const Opt
 void Replayer::prepareCinematics(const Recording::Frame& frame) {
     for (const TraceEvent& event : frame.events) {
         if (const auto* play = std::get_if<event::CinematicPlay>(&event))
-            m_cinematicHandles[lowerCase(play->name)] = play->handle;
+            m_cinematicHandles[toLowerAscii(play->name)] = play->handle;
         else if (const auto* run = std::get_if<event::CinematicRun>(&event))
             m_cinematicStatus[run->handle] = run->status;
         else if (const auto* pixels = std::get_if<event::Cinematic>(&event))

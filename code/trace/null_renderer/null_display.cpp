@@ -1,9 +1,9 @@
 #include "trace/null_renderer/null_display.hpp"
 
-#include <array>
 #include <dlfcn.h>
 
 #include "base/error.hpp"
+#include "engine/video_sizes.hpp"
 
 namespace q3rt {
 namespace {
@@ -11,22 +11,7 @@ namespace {
 /// SDL_INIT_VIDEO and SDL_WINDOW_HIDDEN of SDL 2.
 constexpr uint32_t kSdlVideo = 0x20, kSdlHidden = 0x8;
 
-struct Size {
-    int width, height;
-};
-/// r_mode 0 to 11, pixels.
-constexpr std::array<Size, 12> kModes = {{{320, 240},
-                                          {400, 300},
-                                          {512, 384},
-                                          {640, 480},
-                                          {800, 600},
-                                          {960, 720},
-                                          {1024, 768},
-                                          {1152, 864},
-                                          {1280, 1024},
-                                          {1600, 1200},
-                                          {2048, 1536},
-                                          {856, 480}}};
+using Size = std::pair<int, int>; ///< pixels
 constexpr size_t kDefaultMode = 3;
 
 Size chosenSize(EngineServices& engine) {
@@ -34,9 +19,9 @@ Size chosenSize(EngineServices& engine) {
     const int mode = engine.cvar("r_mode", "3", flags).integer();
     const Size custom = {engine.cvar("r_customwidth", "1600", flags).integer(),
                          engine.cvar("r_customheight", "1024", flags).integer()};
-    if (mode == -1 && custom.width > 0 && custom.height > 0) return custom;
-    return mode >= 0 && mode < static_cast<int>(kModes.size()) ? kModes[static_cast<size_t>(mode)]
-                                                               : kModes[kDefaultMode];
+    if (mode == -1 && custom.first > 0 && custom.second > 0) return custom;
+    return mode >= 0 && mode < static_cast<int>(kVideoSizes.size()) ? kVideoSizes[static_cast<size_t>(mode)]
+                                                                    : kVideoSizes[kDefaultMode];
 }
 
 } // namespace
@@ -51,15 +36,15 @@ Function* NullDisplay::find(const char* name) {
 
 DisplayInfo NullDisplay::open() {
     const Size size = chosenSize(m_engine);
-    if (m_engine.wantsWindow() && !m_window) openWindow(size.width, size.height);
+    if (m_engine.wantsWindow() && !m_window) openWindow(size.first, size.second);
     DisplayInfo display;
     display.rendererText = "no picture";
     display.vendorText = "q3rt";
     display.versionText = "1.0";
     display.maxTextureSize = 16384;
-    display.width = size.width;
-    display.height = size.height;
-    display.aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+    display.width = size.first;
+    display.height = size.second;
+    display.aspect = static_cast<float>(size.first) / static_cast<float>(size.second);
     return display;
 }
 
