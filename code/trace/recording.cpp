@@ -15,9 +15,6 @@ namespace {
 /// A chunk is about a MiB, or one frame if that is longer. A frame with a full-size cinematic stays far below this.
 constexpr uint64_t kMostRawBytes = uint64_t{1} << 30;
 
-/// Frame numbers stay in an int.
-constexpr uint32_t kMostFrames = 1u << 30;
-
 uint32_t checksum(const void* data, size_t bytes) {
     return static_cast<uint32_t>(crc32_z(0, static_cast<const Bytef*>(data), bytes));
 }

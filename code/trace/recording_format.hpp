@@ -22,6 +22,8 @@ namespace q3rt {
 inline constexpr std::array<char, 8> kTraceMagic = {'q', '3', 'r', 't', '-', 'r', 'e', 'c'};
 inline constexpr std::array<char, 4> kTraceEnd = {'q', '3', 'r', 't'};
 inline constexpr uint32_t kTraceVersion = 1;
+/// Of world frames: their numbers stay in an int.
+inline constexpr uint32_t kMostFrames = 1u << 30;
 
 enum class TraceChunk : uint32_t { Events = 1, Files = 2, Info = 3, Index = 4 };
 

@@ -161,7 +161,8 @@ const std::vector<Situation> kSituations = {
     {"sizes_differ", {"compare IN/good.png IN/small.png"}, "small.png", "compare pictures of one size", nullptr},
     {"frames_out_of_range",
      {"replay --basepath IN/good IN/good.q3t --renderer null --first 9 --out OUT",
-      "replay --basepath IN/good IN/good.q3t --renderer null --first 1 --count 9 --out OUT"},
+      "replay --basepath IN/good IN/good.q3t --renderer null --first 1 --count 9 --out OUT",
+      "replay --basepath IN/good IN/good.q3t --renderer null --first 1 --count 2147483647 --out OUT"},
      "good.q3t has world frames 0 to 3",
      "choose --first and --count",
      nullptr},
@@ -199,6 +200,10 @@ const std::vector<Situation> kSituations = {
       "play --every 0",
       "play --map a --timedemo",
       "compare a.png",
+      "view --map a --out a.png --size 4294967936x480",
+      "view --map a --out a.png --size +640x480",
+      "view --map a --out a.png --at spawn:4294967296",
+      "view --map a --out a.png --at spawn:-1",
       "compare a.png b.png --ppd 0",
       "compare a.png b.png --ppd nan",
       "compare a.png b.png --heatmap c.jpg",
@@ -213,6 +218,7 @@ const std::vector<Situation> kSituations = {
       "info",
       "info --map a --all",
       "info --map a --points 1",
+      "record --demo a --out a.q3t --first 2000000000",
       "relight",
       "relight --map a --all",
       "relight --map a --budget -1",
@@ -231,6 +237,9 @@ std::vector<std::string> wordsOf(std::string text, const fs::path& in, const fs:
     std::vector<std::string> words;
     std::istringstream stream(text);
     for (std::string word; stream >> word;) {
+      "trade --map a --out a.jsonl --shard 0/4294967297",
+      "trade --map a --out a.jsonl --shard 0/-2",
+      "trade --map a --out a.jsonl --axis frames=4294967297",
         for (const auto& [mark, folder] : {std::pair{"IN", in}, {"OUT", out}})
             if (word == mark || word.starts_with(std::string(mark) + "/"))
                 word.replace(0, std::string(mark).size(), folder.string());

@@ -15,6 +15,7 @@
 #include "host/common/progress.hpp"
 #include "host/common/setting_checks.hpp"
 #include "host/packaged/engine_process.hpp"
+#include "trace/recording_format.hpp"
 
 namespace q3rt {
 namespace {
@@ -39,12 +40,12 @@ void runRecord(RecordArguments& a) {
     run.recordingName = a.out;
     const OutputFolder pictures(a.pictures);
     run.pictureEvery = pictures.isWanted() ? a.every : 0;
-    const int frames = run.recordFirst + run.recordCount;
+    const long long end = static_cast<long long>(run.recordFirst) + run.recordCount;
     {
-        Progress progress("frame", run.recordCount > 0 ? static_cast<size_t>(frames) : run.demo.snapshots);
+        Progress progress("frame", run.recordCount > 0 ? static_cast<size_t>(end) : run.demo.snapshots);
         runEngine(run, [&](const WatchedFrame& frame) {
             if (frame.frame < 0) return;
-            const bool isKept = frame.frame >= run.recordFirst && (run.recordCount == 0 || frame.frame < frames);
+            const bool isKept = frame.frame >= run.recordFirst && (run.recordCount == 0 || frame.frame < end);
             if (isKept && frame.picture.width > 0)
                 writePng(pictures.path() / formatText("%08d.png", frame.frame), frame.picture);
             progress.advance(static_cast<size_t>(frame.frame) + 1);
@@ -82,7 +83,7 @@ void addRecordCommand(CLI::App& app, int& exitCode) {
     const auto a = std::make_shared<RecordArguments>();
     command->add_option("--demo", a->demo, "Demo of the game, such as demo088-test1")->required();
     command->add_option("--out", a->out, "Recording to write (.q3t)")->required();
-    command->add_option("--first", a->run.recordFirst, "First world frame to keep")->check(wholeNumber(0));
+    command->add_option("--first", a->run.recordFirst, "First world frame to keep")->check(wholeNumber(0, kMostFrames));
     command->add_option("--count", a->run.recordCount, "Number of frames to keep (default: to the end)")
         ->check(wholeNumber(1));
     addRendererOption(*command, a->renderer);

@@ -85,7 +85,7 @@ void runReplay(const ReplayArguments& arguments) {
     const auto start = static_cast<int>(recording.info().firstFrame);
     const int available = start + static_cast<int>(recording.info().frameCount);
     const int first = arguments.first < 0 ? start : arguments.first;
-    const int end = arguments.count < 0 ? available : first + arguments.count;
+    const long long end = arguments.count < 0 ? available : static_cast<long long>(first) + arguments.count;
     if (first < start || first >= available || end > available)
         throw UsageError(formatText("%s has world frames %d to %d; choose --first and --count within",
                                     arguments.trace.c_str(), start, available - 1));

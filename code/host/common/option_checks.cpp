@@ -1,17 +1,16 @@
 #include "host/common/option_checks.hpp"
 
-#include <charconv>
 #include <cmath>
+
+#include "host/common/number_text.hpp"
 
 namespace q3rt {
 namespace {
 
-/// The whole text as a number that lies in the range. Not of the user's locale: a comma is no decimal point.
 template <class Number>
 bool isWithin(const std::string& text, Number least, Number most) {
-    Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size() && value >= least && value <= most;
+    const auto value = parseNumber<Number>(text);
+    return value && *value >= least && *value <= most;
 }
 
 } // namespace

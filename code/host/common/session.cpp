@@ -13,6 +13,7 @@
 #include "formats/text_case.hpp"
 #include "host/common/file_bytes.hpp"
 #include "host/common/json_text.hpp"
+#include "host/common/number_text.hpp"
 #include "host/common/option_checks.hpp"
 #include "host/headless/nearest_name.hpp"
 
@@ -67,11 +68,8 @@ void addSizeOption(CLI::App& command, PictureSize& size, const char* usual) {
 PictureSize parseSize(const std::string& text) {
     constexpr int kLeast = 4, kMost = 16384; // pixels a side: of a window of the engine's, and of any device of ours
     const auto isSide = [](int pixels) { return pixels >= kLeast && pixels <= kMost; };
-    PictureSize size;
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) == 2 && isSide(size.width) &&
-        isSide(size.height))
-        return size;
+    if (const auto size = parsePair<int>(text, "x"); size && isSide(size->first) && isSide(size->second))
+        return {size->first, size->second};
     throw UsageError(formatText("'%s' is no picture size: write WIDTHxHEIGHT, such as 640x480, from %d to %d pixels",
                                 text.c_str(), kLeast, kMost));
 }

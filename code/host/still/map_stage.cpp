@@ -4,18 +4,17 @@
 #include <cstdio>
 
 #include "base/error.hpp"
+#include "host/common/number_text.hpp"
 
 namespace q3rt {
 
 Place parsePlace(const std::string& at) {
     Place place;
-    unsigned number = 0;
-    char rest = 0;
-    if (std::sscanf(at.c_str(), "spawn:%u%c", &number, &rest) == 1) {
-        place.spawnPoint = number;
-        return place;
-    }
+    constexpr std::string_view kSpawn = "spawn:";
+    if (at.starts_with(kSpawn))
+        if ((place.spawnPoint = parseNumber<unsigned>(at.substr(kSpawn.size())))) return place;
     EyePoint& eye = place.eye;
+    char rest = 0;
     const int numbers = std::sscanf(at.c_str(), "%f %f %f %f %f %c", &eye.origin.x, &eye.origin.y, &eye.origin.z,
                                     &eye.pitchDegrees, &eye.yawDegrees, &rest);
     const float sum = eye.origin.x + eye.origin.y + eye.origin.z + eye.pitchDegrees + eye.yawDegrees;

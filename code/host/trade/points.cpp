@@ -1,11 +1,11 @@
 #include "host/trade/points.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <optional>
 
 #include "base/error.hpp"
 #include "formats/text_case.hpp"
+#include "host/common/number_text.hpp"
 
 namespace q3rt {
 namespace {
@@ -42,9 +42,7 @@ bool holds(const CvarList& cvars, const std::string& name) {
 }
 
 int parseFrames(const std::string& text) {
-    int frames = 0;
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%d%c", &frames, &rest) == 1 && frames > 0) return frames;
+    if (const auto frames = parseNumber<int>(text); frames && *frames > 0) return *frames;
     throw UsageError("'" + text + "' is no number of frames; write 1 or more");
 }
 
@@ -129,11 +127,10 @@ std::vector<TradePoint> crossAxes(std::span<const TradeAxis> axes, const Picture
 }
 
 TradeShard parseShard(const std::string& text) {
-    unsigned index = 0, count = 0;
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%u/%u%c", &index, &count, &rest) != 2 || index >= count || text.front() == '-')
+    const auto part = parsePair<unsigned>(text, "/");
+    if (!part || part->first >= part->second)
         throw UsageError("'" + text + "' is no part of a sweep; write I/N with I from 0 to N - 1, such as 0/4");
-    return {index, count};
+    return {part->first, part->second};
 }
 
 std::vector<TradePoint> takeShard(std::span<const TradePoint> points, const TradeShard& shard) {

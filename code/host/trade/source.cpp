@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 
 #include "base/error.hpp"
 #include "host/common/file_bytes.hpp"
+#include "host/common/number_text.hpp"
 #include "host/trade/points.hpp"
 
 namespace q3rt {
@@ -147,9 +147,11 @@ class RecordingSource : public TradeSource {
 } // namespace
 
 std::vector<std::string> expandPlace(const std::string& place) {
-    unsigned first = 0, last = 0;
-    char rest = 0;
-    if (std::sscanf(place.c_str(), "spawn:%u..%u%c", &first, &last, &rest) != 2) return {place};
+    constexpr std::string_view kSpawn = "spawn:";
+    const auto range =
+        place.starts_with(kSpawn) ? parsePair<unsigned>(place.substr(kSpawn.size()), "..") : std::nullopt;
+    if (!range) return {place};
+    const auto [first, last] = *range;
     if (last < first) throw UsageError("'" + place + "': the last spawn point comes before the first");
     constexpr unsigned kMost = 1u << 16; // more than the engine takes entities of all kinds
     if (last - first >= kMost) throw UsageError("'" + place + "': no map has so many spawn points");
