@@ -86,12 +86,12 @@ std::vector<std::byte> Pk3::read(size_t entryIndex) const {
 
 namespace {
 
-void writeEntries(zipFile zip, const std::filesystem::path& path,
+void writeEntries(zipFile zip, const std::string& name,
                   const std::vector<std::pair<std::string, std::vector<std::byte>>>& entries) {
-    for (const auto& [name, bytes] : entries) {
+    for (const auto& [entry, bytes] : entries) {
         zip_fileinfo info{};
         info.dosDate = kEarliestZipDate;
-        bool good = zipOpenNewFileInZip64(zip, name.c_str(), &info, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED,
+        bool good = zipOpenNewFileInZip64(zip, entry.c_str(), &info, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED,
                                           Z_BEST_COMPRESSION, bytes.size() > 0xFFFFFFFEU) == ZIP_OK;
         for (size_t done = 0; good && done < bytes.size();) {
             const size_t piece = std::min(bytes.size() - done, size_t{1} << 30);
@@ -99,7 +99,7 @@ void writeEntries(zipFile zip, const std::filesystem::path& path,
             done += piece;
         }
         if (!good || zipCloseFileInZip(zip) != ZIP_OK)
-            throw ContentError(path.string() + ": can't be written; is the disk full?");
+            throw ContentError(name + ": can't be written; is the disk full?");
     }
 }
 
@@ -107,26 +107,16 @@ void writeEntries(zipFile zip, const std::filesystem::path& path,
 
 void writePk3(const std::filesystem::path& path,
               const std::vector<std::pair<std::string, std::vector<std::byte>>>& entries) {
-    std::filesystem::path temporary = path;
-    temporary += ".partial";
-    std::error_code error;
+    const std::string name = path.string();
+    const zipFile zip = zipOpen64(path.c_str(), APPEND_STATUS_CREATE);
+    if (!zip) throw ContentError(name + ": can't be written; is the folder writable?");
     try {
-        const zipFile zip = zipOpen64(temporary.c_str(), APPEND_STATUS_CREATE);
-        if (!zip) throw ContentError(path.string() + ": can't be written; is the folder writable?");
-        try {
-            writeEntries(zip, path, entries);
-        } catch (...) {
-            zipClose(zip, nullptr);
-            throw;
-        }
-        if (zipClose(zip, nullptr) != ZIP_OK)
-            throw ContentError(path.string() + ": can't be written; is the disk full?");
-        std::filesystem::rename(temporary, path, error);
-        if (error) throw ContentError(path.string() + ": can't be written (" + error.message() + ")");
+        writeEntries(zip, name, entries);
     } catch (...) {
-        std::filesystem::remove(temporary, error);
+        zipClose(zip, nullptr);
         throw;
     }
+    if (zipClose(zip, nullptr) != ZIP_OK) throw ContentError(name + ": can't be written; is the disk full?");
 }
 
 } // namespace q3rt

@@ -37,7 +37,7 @@ class Pk3 {
     std::unique_ptr<Archive> m_archive;
 };
 
-/// Writes a pk3 atomically (temporary file, rename). Entries deflate-compressed, names kept.
+/// Writes a pk3; after an error what is there of it is the caller's to remove. Entries deflate-compressed, names kept.
 void writePk3(const std::filesystem::path& path,
               const std::vector<std::pair<std::string, std::vector<std::byte>>>& entries);
 

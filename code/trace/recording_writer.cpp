@@ -23,6 +23,9 @@ RecordingWriter::RecordingWriter(std::filesystem::path path, std::string name)
     : m_path(std::move(path))
     , m_temporary(m_path.string() + formatText(".%d.tmp", static_cast<int>(getpid())))
     , m_name(std::move(name)) {
+    std::error_code error; // opening says what is wrong
+    if (std::filesystem::exists(m_path, error) && !std::filesystem::is_regular_file(m_path, error))
+        fail("is no regular file"); // and must not be replaced by one
     m_file.reset(std::fopen(m_temporary.c_str(), "wb"));
     if (!m_file) fail(std::strerror(errno));
     const TraceHeader header;

@@ -36,6 +36,7 @@ void runRecord(RecordArguments& a) {
     run.demo = findDemo(*openGame(run.game), a.demo);
     run.headless = run.timed = run.watched = true;
     OutputFile output(fs::absolute(a.out));
+    if (output.isStream()) throw UsageError(a.out + ": a recording is read again as it is made; name a regular file");
     run.recordTo = output.temporary();
     run.recordingName = a.out;
     const OutputFolder pictures(a.pictures);

@@ -12,8 +12,8 @@
 #include "host/common/json_text.hpp"
 #include "host/common/option_checks.hpp"
 #include "host/common/output_file.hpp"
-#include "host/common/session.hpp"
 #include "host/common/progress.hpp"
+#include "host/common/session.hpp"
 #include "host/common/setting_checks.hpp"
 #include "host/headless/replayer.hpp"
 #include "host/still/map_stage.hpp"
@@ -89,6 +89,9 @@ void runReplay(const ReplayArguments& arguments) {
     if (first < start || first >= available || end > available)
         throw UsageError(formatText("%s has world frames %d to %d; choose --first and --count within",
                                     arguments.trace.c_str(), start, available - 1));
+    std::error_code isNoFile;
+    if (fs::equivalent(arguments.stats, arguments.trace, isNoFile))
+        throw UsageError(arguments.stats + ": is the recording itself; choose another --stats");
     RecordedFiles files(recording, arguments.game);
     FrameOutput output(arguments);
     HeadlessEngine engine(files);
@@ -106,10 +109,10 @@ void runReplay(const ReplayArguments& arguments) {
         if (frame.number < first) {
             const bool warm = frame.number >= 0 && frame.number >= first - arguments.warmup;
             replayer.play(frame, warm ? Replayer::Draw::Frame : Replayer::Draw::Nothing);
+            throwIfInterrupted();
             continue;
         }
         const bool chosen = (frame.number - first) % arguments.every == 0;
-            throwIfInterrupted();
         const bool capture = output.wantsPictures() && chosen;
         const Replayer::Result result = drawFrame(replayer, engine, frame, arguments.accumulate,
                                                   capture ? Replayer::Draw::Capture : Replayer::Draw::Frame);

@@ -36,7 +36,7 @@ void loadTrace(HeadlessEngine& engine, Recording& recording) {
 }
 
 void runSubset(const SubsetArguments& a) {
-    checkWritable(a.out);
+    OutputFile output(a.out);
     std::unique_ptr<Recording> recording;
     std::unique_ptr<FileSource> files;
     std::optional<MapStage> stage;
@@ -62,8 +62,11 @@ void runSubset(const SubsetArguments& a) {
     for (const std::string& name : engine.filesRead())
         if (auto bytes = files->read(name)) entries.emplace_back(name, std::move(*bytes));
     engine.unloadModule();
-    writePk3(a.out, entries);
-    const uintmax_t size = fs::file_size(a.out);
+    writePk3(output.temporary(), entries);
+    std::error_code isDevice; // which keeps nothing
+    uintmax_t size = fs::file_size(output.temporary(), isDevice);
+    if (isDevice) size = 0;
+    output.commit();
     if (a.json)
         std::printf("%s\n", toJsonText({{"archive", a.out}, {"files", entries.size()}, {"bytes", size}}).c_str());
     else

@@ -17,8 +17,8 @@ struct Closer {
 };
 using File = std::unique_ptr<std::FILE, Closer>;
 
-[[noreturn]] void failToRead(const std::filesystem::path& path, int error) {
-    throw ContentError(formatText("%s: can't be read: %s; check the path", path.c_str(), std::strerror(error)));
+[[noreturn]] void failToRead(const std::filesystem::path& path, const char* reason) {
+    throw ContentError(formatText("%s: can't be read: %s; check the path", path.c_str(), reason));
 }
 
 [[noreturn]] void failToWrite(const std::filesystem::path& path, int error) {
@@ -29,9 +29,10 @@ using File = std::unique_ptr<std::FILE, Closer>;
 } // namespace
 
 std::vector<std::byte> readFileBytes(const std::filesystem::path& path) {
-    if (std::filesystem::is_directory(path)) failToRead(path, EISDIR);
+    if (std::filesystem::is_directory(path)) failToRead(path, std::strerror(EISDIR));
+    if (std::filesystem::is_character_file(path)) failToRead(path, "Is a device"); // which may have no end
     const File file(std::fopen(path.c_str(), "rb"));
-    if (!file) failToRead(path, errno);
+    if (!file) failToRead(path, std::strerror(errno));
     std::vector<std::byte> bytes;
     for (size_t count = 1; count > 0;) {
         const size_t before = bytes.size();
@@ -39,7 +40,7 @@ std::vector<std::byte> readFileBytes(const std::filesystem::path& path) {
         count = std::fread(bytes.data() + before, 1, bytes.size() - before, file.get());
         bytes.resize(before + count);
     }
-    if (std::ferror(file.get()) != 0) failToRead(path, errno);
+    if (std::ferror(file.get()) != 0) failToRead(path, std::strerror(errno));
     return bytes;
 }
 

@@ -26,6 +26,21 @@ bool isRemoved(int file) {
     return fstat(file, &status) == 0 && status.st_nlink == 0 && S_ISREG(status.st_mode);
 }
 
+/// Whatever name leads there: what is printed goes into the same file, behind what is already in it.
+bool isStandardOutput(const fs::path& path) {
+    struct stat named {
+    }, printed{};
+    return stat(path.c_str(), &named) == 0 && fstat(STDOUT_FILENO, &printed) == 0 && named.st_dev == printed.st_dev &&
+           named.st_ino == printed.st_ino;
+}
+
+/// The file that a link names, so that the link stays when the file is replaced.
+fs::path followLinks(const fs::path& path) {
+    std::error_code error;
+    const fs::path target = fs::canonical(path, error);
+    return !error && fs::is_symlink(path) ? target : path;
+}
+
 } // namespace
 
 MadeFolders::MadeFolders(const fs::path& folder, const fs::path& result) {
@@ -45,13 +60,14 @@ MadeFolders::~MadeFolders() {
 }
 
 OutputFile::OutputFile(fs::path path)
-    : m_path(std::move(path))
+    : m_path(followLinks(path))
     , m_temporary(m_path.string() + formatText(".%d.tmp", static_cast<int>(getpid())))
     , m_folders(m_path.parent_path(), m_path) {
     std::error_code ignored; // opening says what is wrong
     if (fs::is_directory(m_path, ignored) || !m_path.has_filename())
         throw UsageError(formatText("%s: is a folder; name a file in it", m_path.c_str()));
-    if (fs::exists(m_path, ignored) && !fs::is_regular_file(m_path, ignored)) {
+    m_isPrinted = isStandardOutput(m_path);
+    if (m_isPrinted || (fs::exists(m_path, ignored) && !fs::is_regular_file(m_path, ignored))) {
         // A device or a pipe (/dev/null, /dev/stdout) takes what is written and must not be replaced.
         m_temporary = m_path;
         m_committed = true;
@@ -75,6 +91,7 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::commit() {
+    if (m_isPrinted) lseek(STDOUT_FILENO, 0, SEEK_END); // of a pipe it does nothing
     if (m_committed) return;
     if (std::rename(m_temporary.c_str(), m_path.c_str()) != 0) fail(m_path, std::strerror(errno));
     m_committed = true;
@@ -92,6 +109,11 @@ LineFile::LineFile(fs::path path, Old old)
     : m_path(std::move(path))
     , m_folders(m_path.parent_path(), m_path) {
     if (!isWanted()) return;
+    if (isStandardOutput(m_path)) {
+        m_file.reset(dup(STDOUT_FILENO)); // one place in the file for both, where it has one
+        m_isPrinted = true;
+        return;
+    }
     do {
         m_file.reset(open(m_path.c_str(), O_CREAT | O_WRONLY | O_APPEND | O_CLOEXEC, 0666));
         if (m_file.number < 0) fail(m_path, std::strerror(errno));
@@ -101,19 +123,20 @@ LineFile::LineFile(fs::path path, Old old)
                                         "another file",
                                         m_path.c_str()));
     } while (isRemoved(m_file.number));
-    if (old == Old::Replace && fs::is_regular_file(m_path) && ftruncate(m_file.number, 0) != 0)
-        fail(m_path, std::strerror(errno));
+    m_isOutdated = old == Old::Replace && fs::is_regular_file(m_path);
 }
 
 LineFile::~LineFile() {
     std::error_code error;
     // Only its writer may remove it, and while the lock is held nobody else is one.
-    if (m_file.number >= 0 && fs::is_regular_file(m_path, error) && fs::file_size(m_path, error) == 0)
+    if (m_file.number >= 0 && !m_isPrinted && fs::is_regular_file(m_path, error) && fs::file_size(m_path, error) == 0)
         fs::remove(m_path, error);
 }
 
 void LineFile::append(const std::string& line) {
     if (!isWanted()) return;
+    if (m_isOutdated && ftruncate(m_file.number, 0) != 0) fail(m_path, std::strerror(errno));
+    m_isOutdated = false;
     const std::string text = line + '\n';
     for (size_t written = 0; written < text.size();) {
         const ssize_t count = write(m_file.number, text.data() + written, text.size() - written);

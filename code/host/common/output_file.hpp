@@ -34,11 +34,14 @@ class OutputFile {
 
     /// Where to write. Files whose names begin with this one are temporary too.
     const std::filesystem::path& temporary() const { return m_temporary; }
+    /// A device, a pipe or standard output: what is written there is gone, and can't be read again.
+    bool isStream() const { return m_temporary == m_path; }
     void commit();
 
   private:
     std::filesystem::path m_path, m_temporary;
     MadeFolders m_folders;
+    bool m_isPrinted = false; ///< the file is standard output
     bool m_committed = false;
 };
 
@@ -61,7 +64,8 @@ class OutputFolder {
     MadeFolders m_folders;
 };
 
-/// A text file that is of use however long it got: a line a frame. Without any line it goes with its owner.
+/// A text file that is of use however long it got: a line a frame. Without any line what was there before stays, or
+/// nothing.
 class LineFile {
   public:
     enum class Old { Replace, Continue };
@@ -77,7 +81,9 @@ class LineFile {
   private:
     std::filesystem::path m_path;
     MadeFolders m_folders;
-    Descriptor m_file; ///< locked: two writers would each add the same lines
+    Descriptor m_file;         ///< locked: two writers would each add the same lines
+    bool m_isPrinted = false;  ///< the file is standard output
+    bool m_isOutdated = false; ///< what is in it goes when the first line comes
 };
 
 } // namespace q3rt
