@@ -1,6 +1,5 @@
 #include "renderer_rt/pace.hpp"
 
-#include "base/log.hpp"
 #include "renderer_rt/presets.hpp"
 
 namespace q3rt {
@@ -17,28 +16,13 @@ std::vector<double> costsOfLevels() {
     return costs;
 }
 
-std::string listPresets() {
-    std::string names(kCustomPreset);
-    for (const Preset& preset : presets())
-        names += ", " + std::string(preset.name);
-    return names;
-}
-
 } // namespace
 
 Pace::Pace()
     : m_controller(costsOfLevels(), 0) {}
 
 void Pace::applyPreset(TraceSettings& settings) {
-    if (settings.rt_preset == kCustomPreset) return;
-    if (const Preset* preset = findPreset(settings.rt_preset)) {
-        applySettings(preset->settings, settings);
-        return;
-    }
-    if (m_unknownPreset == settings.rt_preset) return;
-    m_unknownPreset = settings.rt_preset;
-    logLine(LogLevel::Warning, "rt_preset %s: there is none of this name; choose one of %s", m_unknownPreset.c_str(),
-            listPresets().c_str());
+    if (const Preset* preset = findPreset(settings.rt_preset)) applySettings(preset->settings, settings);
 }
 
 void Pace::apply(TraceSettings& settings, uint64_t frame, uint64_t finished, double finishedMs) {

@@ -2,7 +2,6 @@
 // rt_preset and rt_targetMs: what they make of a frame's settings.
 
 #include <deque>
-#include <string>
 
 #include "renderer_rt/frame_time_controller.hpp"
 #include "renderer_rt/trace_settings.hpp"
@@ -27,7 +26,6 @@ class Pace {
         size_t level = 0;
     };
     std::deque<DrawnFrame> m_drawn; ///< whose times are not known yet
-    std::string m_unknownPreset;    ///< that has been reported
 };
 
 } // namespace q3rt

@@ -23,9 +23,7 @@ std::span<const Preset> presets();
 /// By rising time and likeness.
 std::span<const PaceLevel> paceLevels();
 
-/// rt_preset of settings that are taken as they are.
-inline constexpr std::string_view kCustomPreset = "custom";
-/// nullptr: there is none of this name.
+/// nullptr: there is none of this name; "custom" is none.
 const Preset* findPreset(std::string_view name);
 
 /// Sets what `settings` names. False: it names a setting that there is not, or gives one no number.

@@ -10,7 +10,7 @@ SETTING(r_centerWindow, Int, 0, 0, 1, AL, "", "window starts in the middle of th
 SETTING(r_display, Int, 0, 0, 15, AL, "", "number of the display that the window opens on")
 SETTING(r_swapInterval, Int, 0, -1, 4, AL, "frames", "0 shows frames at once, 1 waits for the display, -1 waits unless the frame is late")
 SETTING(r_device, Text, "", 0, 0, AL, "", "part of a GPU's name or its number; empty: the best")
-SETTING(r_textureMode, Text, "GL_LINEAR_MIPMAP_LINEAR", 0, 0, A, "", "filter of mip-mapped textures")
+SETTING(r_textureMode, Text, "GL_LINEAR_MIPMAP_LINEAR", 0, 0, A, "GL_NEAREST|GL_LINEAR|GL_NEAREST_MIPMAP_NEAREST|GL_LINEAR_MIPMAP_NEAREST|GL_NEAREST_MIPMAP_LINEAR|GL_LINEAR_MIPMAP_LINEAR", "filter of mip-mapped textures")
 SETTING(r_ext_texture_filter_anisotropic, Int, 0, 0, 1, AL, "", "anisotropic filter")
 SETTING(r_ext_max_anisotropy, Int, 2, 1, 16, AL, "samples", "of the anisotropic filter")
 SETTING(r_ext_multisample, Int, 0, 0, 16, AL, "samples", "a pixel, that smooth edges (rasteriser)")

@@ -2,7 +2,7 @@
 // One line in a settings.def.h declares a setting: it makes the cvar, the member of the settings struct and the row in
 // docs/settings.md. A list file holds lines of
 //     SETTING(name, type, default, minimum, maximum, flags, unit, "meaning")
-// type: Int, Float or Text; minimum == maximum: any value; flags: a letter group of settingFlag.
+// type: Int, Float or Text; minimum == maximum: any value; flags: a letter group of settingFlag; a Text's unit: words.
 
 #include <string>
 #include <variant>
@@ -40,7 +40,7 @@ class SettingsBinding {
     void bind(SettingInfo info, Target target);
     /// Registers every cvar; latched values become current, as at the engine's own registration.
     void registerAll(EngineServices& engine);
-    /// Copies the cvars' values into the structs. Nothing happens before registerAll().
+    /// Copies the cvars' values into the structs; of a text that is no word, the default. Not before registerAll().
     void refresh();
 
   private:

@@ -233,6 +233,7 @@ const std::vector<Situation> kSituations = {
       "record --demo a --out a.q3t --first 2000000000",
       "relight",
       "relight --map a --all",
+      "trade --map a --out a.jsonl --axis rt_preset=fast,nice",
       "relight --map a --budget -1",
       "subset --out a.pk3",
       "subset --map a --trace b --out c",

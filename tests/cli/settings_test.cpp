@@ -119,6 +119,7 @@ TEST_F(UnknownSetting, EndsARunWithoutResults) {
         SCOPED_TRACE(command[0]);
         expectRefused(command, "r_gama=1", "no setting of this renderer is called r_gama (did you mean r_gamma?)");
         expectRefused(command, "r_gamma=9", "r_gamma takes numbers from 0.5 to 3, not '9'");
+        expectRefused(command, "r_textureMode=sharp", "r_textureMode takes GL_NEAREST, ");
         EXPECT_FALSE(fs::exists(out)) << fs::directory_iterator(out)->path();
     }
     std::vector<std::string> axis = commands.back();
@@ -128,14 +129,20 @@ TEST_F(UnknownSetting, EndsARunWithoutResults) {
     EXPECT_NE(result.errors.find("did you mean rt_taa?"), std::string::npos) << result.errors;
 }
 
-// What only the renderer knows is its own warning, which needs no --verbose.
-TEST_F(UnknownSetting, OfATextIsTheRenderersWarning) {
-    const ProgramResult result =
-        runQ3rt({"view", "--basepath", (s_in / "good").string(), "--map", kBadMap, "--renderer", "rt", "--size",
-                 "64x48", "--set", "rt_preset=nice", "--out", (s_in / "nice.png").string()});
+TEST_F(UnknownSetting, OfATextIsRefusedToo) {
+    const fs::path out = s_in / "nice.png";
+    const std::vector<std::string> view = {
+        "view",  "--basepath", (s_in / "good").string(), "--map", kBadMap, "--renderer", "rt", "--size", "64x48",
+        "--out", out.string()};
+    std::vector<std::string> known = view;
+    known.insert(known.end(), {"--set", "rt_preset=FAST"});
+    const ProgramResult result = runQ3rt(known);
     if (result.errors.find("no Vulkan d") != std::string::npos) GTEST_SKIP() << result.errors;
     EXPECT_EQ(result.exitCode, 0) << result.errors;
-    EXPECT_NE(result.errors.find("rt_preset nice: "), std::string::npos) << result.errors;
+    fs::remove(out);
+    expectRefused(view, "rt_preset=nice", "rt_preset takes custom, fast, balanced, quality or reference, not 'nice'");
+    expectRefused(view, "rt_backend=", "rt_backend takes auto, pipeline, query or compute, not ''");
+    EXPECT_FALSE(fs::exists(out));
 }
 
 TEST_F(UnknownSetting, OfOurRenderersIsRefusedBeforeTheEngineStarts) {
@@ -148,6 +155,7 @@ TEST_F(UnknownSetting, OfOurRenderersIsRefusedBeforeTheEngineStarts) {
         SCOPED_TRACE(command[0]);
         expectRefused(command, "rt_tta=1", "(did you mean rt_taa?)");
         expectRefused(command, "rt_taa=2", "rt_taa takes whole numbers from 0 to 1, not '2'");
+        expectRefused(command, "rt_preset=nice", "rt_preset takes custom, fast, ");
         EXPECT_FALSE(fs::exists(out));
     }
 }

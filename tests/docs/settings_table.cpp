@@ -17,7 +17,15 @@ std::string plainNumber(std::string text) {
     return text;
 }
 
+/// Of a text the words that it takes.
+std::string describeWords(std::string words) {
+    for (size_t at = 0; (at = words.find('|', at)) != std::string::npos;)
+        words.replace(at, 1, ", ");
+    return words;
+}
+
 std::string describeRange(const Row& row) {
+    if (row.type == "Text") return describeWords(row.unit);
     const std::string low = plainNumber(row.minimum), high = plainNumber(row.maximum);
     return low == high ? "" : low + " to " + high;
 }
@@ -38,8 +46,8 @@ std::string describeFlags(const std::string& flags) {
 std::string renderTable(const std::vector<Row>& rows) {
     std::string text = "| name | default | range | unit | kind | meaning |\n|---|---|---|---|---|---|\n";
     for (const Row& row : rows)
-        text += "| `" + row.name + "` | " + plainNumber(row.standard) + " | " + describeRange(row) + " | " + row.unit +
-                " | " + describeFlags(row.flags) + " | " + row.meaning + " |\n";
+        text += "| `" + row.name + "` | " + plainNumber(row.standard) + " | " + describeRange(row) + " | " +
+                (row.type == "Text" ? "" : row.unit) + " | " + describeFlags(row.flags) + " | " + row.meaning + " |\n";
     return text;
 }
 

@@ -1,5 +1,8 @@
 // Presets and levels as generated, and what rt_preset and rt_targetMs make of the settings.
 
+#include <map>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "renderer_rt/pace.hpp"
@@ -22,6 +25,18 @@ TEST(Presets, AreFourInOrderAndNameSettings) {
         EXPECT_GE(preset.ssim, presets()[i - 1].ssim);
     }
     EXPECT_GT(presets()[3].ms, presets()[0].ms);
+}
+
+TEST(Presets, AreTheWordsOfTheSetting) {
+#define SETTING(name, type, standard, minimum, maximum, flags, unit, meaning) {#name, unit},
+    const std::map<std::string_view, std::string_view> units = {
+#include "renderer_rt/settings.def.h"
+    };
+#undef SETTING
+    std::string words = "custom";
+    for (const Preset& preset : presets())
+        words += "|" + std::string(preset.name);
+    EXPECT_EQ(units.at("rt_preset"), words);
 }
 
 TEST(Presets, LevelsRiseAndLeaveTheFiltersAlone) {

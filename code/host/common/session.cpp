@@ -15,6 +15,7 @@
 #include "host/common/json_text.hpp"
 #include "host/common/number_text.hpp"
 #include "host/common/option_checks.hpp"
+#include "host/common/setting_checks.hpp"
 #include "host/headless/nearest_name.hpp"
 
 namespace q3rt {
@@ -84,6 +85,9 @@ void addSetOption(CLI::App& command, CvarList& cvars, const char* name, const ch
                     if (equals == 0 || equals == std::string::npos)
                         throw CLI::ValidationError(name, "'" + text + "' sets nothing: write CVAR=VALUE");
                     cvars.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+                    if (const std::string complaint = complainOfText(cvars.back().first, cvars.back().second);
+                        !complaint.empty())
+                        throw CLI::ValidationError(text, complaint);
                 }
             },
             meaning)

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "engine/setting_words.hpp"
 #include "formats/text_case.hpp"
 
 namespace q3rt {
@@ -12,9 +13,11 @@ constexpr const char* kTracerPrefix = "rt_";
 struct KnownSetting {
     const char *name, *type, *standard;
     float least, most;
+    const char* unit; ///< of a text its words
+    bool isText() const { return std::string_view(type) == "Text"; }
 };
 #define SETTING(name, type, standard, minimum, maximum, flags, unit, meaning)                                          \
-    {#name, #type, #standard, minimum, maximum},
+    {#name, #type, #standard, minimum, maximum, unit},
 constexpr KnownSetting kKnownSettings[] = {
 #include "code/engine/front_end_settings.def.h"
 #include "renderer_rt/settings.def.h"
@@ -27,6 +30,13 @@ constexpr KnownSetting kKnownSettings[] = {
 }
 
 } // namespace
+
+std::string complainOfText(const std::string& name, const std::string& value) {
+    for (const KnownSetting& setting : kKnownSettings)
+        if (setting.isText() && equalsIgnoringCase(setting.name, name))
+            return complainOfWord(setting.name, setting.unit, value);
+    return "";
+}
 
 void requireSettings(const CvarTable& cvars, const CvarList& settings) {
     for (const auto& [name, value] : settings)

@@ -8,6 +8,9 @@
 
 namespace q3rt {
 
+/// What is wrong with the value of a text setting of ours, whichever renderer runs: --set and --axis ask it at once,
+/// for of words the table of cvars knows nothing. Empty: nothing, or it is no such setting.
+std::string complainOfText(const std::string& name, const std::string& value);
 /// Once the renderer has declared its own: throws CLI::ValidationError for the first setting that it doesn't have, or
 /// whose value it doesn't take.
 void requireSettings(const CvarTable& cvars, const CvarList& settings);

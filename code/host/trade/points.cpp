@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "formats/text_case.hpp"
 #include "host/common/number_text.hpp"
+#include "host/common/setting_checks.hpp"
 
 namespace q3rt {
 namespace {
@@ -51,6 +52,8 @@ void setValue(TradePoint& point, const std::string& axis, const std::string& val
         point.size = parseSize(value);
     else if (axis == kFramesAxis)
         point.frames = parseFrames(value);
+    else if (const std::string complaint = complainOfText(axis, value); !complaint.empty())
+        throw UsageError(complaint);
     else
         point.cvars[axis] = value;
 }
