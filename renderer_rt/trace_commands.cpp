@@ -109,7 +109,7 @@ void TraceRenderer::writeRadiance(const std::string& file) {
         rgb.insert(rgb.end(), texel, texel + 3);
     }
     engine().writeFile(file, encodePfm(static_cast<int>(extent.width), static_cast<int>(extent.height), rgb));
-    logLine(LogLevel::Info, "wrote %s", file.c_str());
+    if (engine().fileExists(file)) logLine(LogLevel::Info, "wrote %s", file.c_str());
 }
 
 void TraceRenderer::printStats() {

@@ -165,7 +165,9 @@ void FrontEnd::writeScreenshot(const CaptureRequest& request, const FrameImage& 
                      : encodeTga24(image.width, image.height, image.rgb);
     }
     m_engine.writeFile(file, bytes);
-    if (!request.silent) m_engine.print(LogLevel::Info, formatText("Wrote %s", file.c_str()));
+    // Of a file that it could not write the engine tells the player alone.
+    if (!request.silent && m_engine.fileExists(file))
+        m_engine.print(LogLevel::Info, formatText("Wrote %s", file.c_str()));
 }
 
 void FrontEnd::writeVideo(const CaptureRequest& request, const FrameImage& image) {
