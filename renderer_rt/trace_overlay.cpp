@@ -110,6 +110,7 @@ void TraceRenderer::addOverlay(FrameGraph& graph, FrameTargets& targets, bool ca
             lines.push_back(std::move(line));
     if (lines.empty()) return;
     if (m_overlayFont == 0) {
+        if (!world()) return; // it comes with the map
         logLineOnce(LogLevel::Warning, "%s: image not found; numbers are not shown on the picture", kFontShader);
         return;
     }

@@ -81,6 +81,7 @@ void TraceRenderer::onGpuReady() {
 void TraceRenderer::onGpuContentDropped() {
     removeCommands();
     if (m_paused) pauseGame(false);
+    m_overlayFont = 0;
     m_views.clear();
     m_buffers.clear();
     m_lastBuffers = nullptr;
