@@ -8,13 +8,14 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/measured_choices.hpp"
+#include "base/user_cache.hpp"
 #include "gpu/capabilities.hpp"
 #include "gpu/device.hpp"
 #include "gpu/software_driver.hpp"
 #include "host/common/output_file.hpp"
-#include "scene/world.hpp"
 #include "host/common/progress.hpp"
 #include "host/packaged/engine_process.hpp"
+#include "scene/world.hpp"
 #include "tracing_code.hpp"
 
 namespace q3rt {
@@ -179,6 +180,21 @@ Check checkOutputFolder(const std::string& folder) {
     }
 }
 
+/// Where the engine's home and what is kept from run to run go.
+Check checkCache() {
+    const fs::path folder = userCacheFolder();
+    const char* remedy = "set XDG_CACHE_HOME to a writable folder";
+    if (folder.empty())
+        return {"cache", Finding::Problem, "no place for temporary files: neither HOME nor XDG_CACHE_HOME is set",
+                remedy};
+    try {
+        const OutputFolder trial(folder);
+        return {"cache", Finding::Good, folder.string() + " can be written", ""};
+    } catch (const UsageError& error) {
+        return {"cache", Finding::Problem, error.what(), remedy};
+    }
+}
+
 Check checkReference(const Installation& found) {
     const bool module = !found.engineRenderers.empty() &&
                         access((found.engineRenderers / "renderer_opengl1_x86_64.so").c_str(), R_OK) == 0;
@@ -199,6 +215,7 @@ std::vector<Check> examineMachine(const DoctorOptions& options) {
     checkFetchedDriver(checks);
     checkDevices(checks);
     checkChoices(checks);
+    checks.push_back(checkCache());
     checks.push_back(checkDisplay());
     checks.push_back(checkReference(found));
     if (!options.recording.empty()) checks.push_back(checkRecording(options.recording));
