@@ -141,7 +141,7 @@ void addInfoCommand(CLI::App& app, int& exitCode) {
     command->add_option("--points", arguments->luxelCount, "Luxels compared a map, 10 to 10000000 (default 3000)")
         ->check(wholeNumber(10, 10'000'000));
     addGameOptions(*command, arguments->game);
-    command->add_flag("--json", arguments->json, "One JSON object instead of text");
+    command->add_flag("--json", arguments->json, "One JSON object a map instead of text");
     command->footer("Example: q3rt info --map oa_dm1 --json");
     command->callback([arguments, &exitCode] {
         runInfo(*arguments);
