@@ -172,5 +172,21 @@ TEST_F(UnknownSetting, OfTheEngineIsNamedAfterTheRun) {
     EXPECT_NE(result.errors.find("(did you mean cg_drawFPS?)"), std::string::npos) << result.errors;
 }
 
+TEST_F(UnknownSetting, OfTheEngineIsNamedInAWindowToo) {
+    if (!canPlay()) GTEST_SKIP() << kNoGameData;
+    const fs::path cache = makeScratchFolder("window_settings");
+    const ProgramResult result = runQ3rt(
+        {"play", "--demo", "demo088-test1", "--renderer", "null", "--timedemo", "--set", "cg_drawFSP=1", "--set",
+         "com_maxfps=125"},
+        {"XDG_CACHE_HOME=" + cache.string(), "DISPLAY=:none", "SDL_VIDEODRIVER=dummy", "SDL_AUDIODRIVER=dummy"});
+    EXPECT_EQ(result.exitCode, 0) << result.errors;
+    EXPECT_NE(result.errors.find("q3rt: --set cg_drawFSP=1: no setting of engine, game or renderer is called "
+                                 "cg_drawFSP (did you mean cg_drawFPS?)"),
+              std::string::npos)
+        << result.errors;
+    EXPECT_EQ(result.errors.find("q3rt: --set com_maxfps"), std::string::npos) << result.errors;
+    EXPECT_EQ(result.output.find("99th percentile"), std::string::npos) << result.output;
+}
+
 } // namespace
 } // namespace q3rt::test

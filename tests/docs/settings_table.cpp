@@ -76,7 +76,7 @@ std::string renderSettingsPage() {
            "*cheat*:\n"
            "only with `sv_cheats 1` or in a demo. A name or value that the renderer does not take ends the run (exit "
            "status 2).\n"
-           "Of the engine's and the game's own cvars, which only they know, `play --headless` and `record` say which "
+           "Of the engine's and the game's own cvars, which only they know, `play` and `record` say at their end which "
            "nobody took.\n"
            "This page is made from the lists in the source by `build/print_settings_table`.\n\n"
            "## Ray tracer\n\n" +

@@ -90,26 +90,28 @@ class PlayReport {
 
 void runPlay(PlayArguments& a) {
     EngineRun& run = a.run;
-    requireKnownSettings(run.cvars);
+    run.headless = run.headless || !hasDisplay();
+    if (run.headless && a.demo.empty() && (run.map.empty() || run.frameLimit == 0))
+        throw CLI::ValidationError("play",
+                                   "a game without a display needs an end: give --demo, or --map with --frames");
+    const CvarList others = requireKnownSettings(run.cvars);
     run.module = findModule(a.renderer);
     const auto files = openGame(run.game);
     if (!a.demo.empty()) run.demo = findDemo(*files, a.demo);
     if (!run.map.empty()) readMap(*files, run.map);
     if (a.relight) ensureLostLights(*files, run.game, run.map);
-    run.headless = run.headless || !hasDisplay();
-    if (run.headless && a.demo.empty() && run.frameLimit == 0)
-        throw CLI::ValidationError("play",
-                                   "a game without a display needs an end: give --demo, or --map with --frames");
     run.timed = run.timed || run.headless;
-    // What only the interposer can do or tell.
-    run.watched = run.headless || !a.out.empty() || !a.stats.empty() || run.frameLimit > 0 || a.json;
+    const bool reports = run.headless || !a.out.empty() || !a.stats.empty() || run.frameLimit > 0 || a.json;
+    run.watched = reports || !others.empty(); // what only the interposer can do or tell
     run.wantsStats = !a.stats.empty();
     run.pictureEvery = a.out.empty() ? 0 : a.every;
     size_t expected = run.demo.snapshots;
     if (run.frameLimit > 0) expected = static_cast<size_t>(run.frameLimit);
     PlayReport report(a, expected);
-    runEngine(run, [&](const WatchedFrame& frame) { report.take(frame); });
-    if (!run.watched) return;
+    runEngine(run, [&](const WatchedFrame& frame) {
+        if (reports) report.take(frame);
+    });
+    if (!reports) return;
     if (report.frameCount() == 0) throw DeviceError("the engine ended before it drew the world");
     report.print(a.json);
 }

@@ -43,20 +43,22 @@ void requireSettings(const CvarTable& cvars, const CvarList& settings) {
         if (const std::string complaint = cvars.complaint(name); !complaint.empty()) refuse(name, value, complaint);
 }
 
-void requireKnownSettings(const CvarList& settings) {
+CvarList requireKnownSettings(const CvarList& settings) {
     CvarTable known;
     for (const KnownSetting& setting : kKnownSettings) {
         cvar_t* cvar = known.get(setting.name, setting.standard, 0);
         if (setting.least < setting.most)
             known.setRange(cvar, setting.least, setting.most, std::string_view(setting.type) == "Int");
     }
-    CvarList ours;
+    CvarList ours, others;
     for (const auto& setting : settings) {
-        if (!known.find(setting.first) && !toLowerAscii(setting.first).starts_with(kTracerPrefix)) continue;
-        known.preset(setting.first, setting.second);
-        ours.push_back(setting);
+        const bool isOurs = known.find(setting.first) || toLowerAscii(setting.first).starts_with(kTracerPrefix);
+        (isOurs ? ours : others).push_back(setting);
     }
+    for (const auto& [name, value] : ours)
+        known.preset(name, value);
     requireSettings(known, ours);
+    return others;
 }
 
 } // namespace q3rt

@@ -15,6 +15,7 @@ std::string complainOfText(const std::string& name, const std::string& value);
 /// whose value it doesn't take.
 void requireSettings(const CvarTable& cvars, const CvarList& settings);
 /// Before any renderer runs: the same for settings of our renderers and for names that could only be theirs (rt_...).
-void requireKnownSettings(const CvarList& settings);
+/// Returns the others, which only the engine and the game may know.
+CvarList requireKnownSettings(const CvarList& settings);
 
 } // namespace q3rt

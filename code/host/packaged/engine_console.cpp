@@ -1,8 +1,7 @@
 #include "host/packaged/engine_console.hpp"
 
 #include <algorithm>
-#include <map>
-#include <optional>
+#include <set>
 #include <sstream>
 
 #include "formats/text_case.hpp"
@@ -11,27 +10,6 @@
 #include "trace/recorder/watch_protocol.hpp"
 
 namespace q3rt {
-namespace {
-
-/// A line of the engine's list of cvars: a column a flag, the name, the value in quotes.
-struct ListedCvar {
-    std::string name;
-    bool isDeclared = false; ///< by engine, game or renderer; else it was only ever set
-};
-
-std::optional<ListedCvar> parseListed(const std::string& line) {
-    constexpr size_t kLeastColumns = 8;
-    const size_t value = line.find(" \"");
-    if (value == std::string::npos || value <= kLeastColumns) return std::nullopt;
-    const size_t gap = line.rfind(' ', value - 1);
-    if (gap == std::string::npos || gap < kLeastColumns) return std::nullopt;
-    const std::string flags = line.substr(0, gap);
-    if (flags.find_first_not_of(" SsURIALCMV?") != std::string::npos) return std::nullopt;
-    return ListedCvar{line.substr(gap + 1, value - gap - 1), flags.find('?') == std::string::npos};
-}
-
-} // namespace
-
 std::string readConsole(const std::filesystem::path& file) {
     const std::vector<std::byte> bytes = readFileBytes(file);
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -52,22 +30,29 @@ std::string findLastError(const std::string& console) {
 }
 
 std::vector<std::string> listComplaints(const std::string& console, const CvarList& settings) {
-    std::vector<std::string> complaints, declared;
-    std::map<std::string, bool> isDeclared; // by lower-case name
+    std::vector<std::string> complaints;
     std::istringstream lines(console);
     for (std::string line; std::getline(lines, line);) {
-        if (const auto cvar = parseListed(line)) {
-            isDeclared[toLowerAscii(cvar->name)] = cvar->isDeclared;
-            if (cvar->isDeclared) declared.push_back(cvar->name);
-            continue;
-        }
         if (line.starts_with('^')) line.erase(0, 2); // the engine's colour of warnings
         const std::string name = line.substr(0, line.find_first_of(": "));
         const bool given = std::ranges::any_of(settings, [&](const auto& setting) { return setting.first == name; });
         if (given && std::ranges::find(complaints, line) == complaints.end()) complaints.push_back(line);
     }
+    return complaints;
+}
+
+std::vector<std::string> listUndeclared(const std::string& cvars, const CvarList& settings) {
+    std::vector<std::string> complaints, declared;
+    std::set<std::string> undeclared; // in lower case
+    std::istringstream lines(cvars);
+    for (std::string name; std::getline(lines, name);) {
+        if (name.starts_with(WatchMessage::kUndeclared))
+            undeclared.insert(toLowerAscii(name.substr(1)));
+        else
+            declared.push_back(name);
+    }
     for (const auto& [name, value] : settings)
-        if (const auto listed = isDeclared.find(toLowerAscii(name)); listed != isDeclared.end() && !listed->second)
+        if (undeclared.contains(toLowerAscii(name)))
             complaints.push_back("--set " + name + "=" + value + ": no setting of engine, game or renderer is called " +
                                  name + hintAtNearest(name, declared));
     return complaints;

@@ -12,8 +12,9 @@ namespace q3rt {
 std::string readConsole(const std::filesystem::path& file);
 /// About the engine's end, without ornaments; empty: nothing.
 std::string findLastError(const std::string& console);
-/// What there is to say of settings that the user gave: lines of the renderer that begin with such a name; and the
-/// settings that nobody has declared, if the console has the engine's list of cvars (kWatchCvars).
+/// What there is to say of settings that the user gave: lines of the renderer that begin with such a name.
 std::vector<std::string> listComplaints(const std::string& console, const CvarList& settings);
+/// The settings that nobody has declared, by the interposer's list of cvars (WatchMessage::kCvars).
+std::vector<std::string> listUndeclared(const std::string& cvars, const CvarList& settings);
 
 } // namespace q3rt

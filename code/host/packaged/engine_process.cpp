@@ -27,8 +27,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The longest silence of a healthy headless run: a frame, or a map load with its shaders, on a slow machine.
-constexpr int kPatienceMs = 300'000;
+/// The longest silence of a healthy headless run: a frame, or a map load with its shaders, on a slow machine. In a
+/// window the player may stay in the menu for ever.
+constexpr int kPatienceMs = 300'000, kForeverMs = -1;
 
 /// A child process that doesn't outlive its owner.
 class Child {
@@ -104,17 +105,30 @@ Child::Child(const EngineCommand& command, int outputFile, int socket) {
     _exit(127);
 }
 
-/// False at the end of the stream. Throws when nothing comes for too long.
-bool receive(int socket, void* data, size_t bytes) {
+/// What the interposer sends.
+class Stream {
+  public:
+    Stream(int socket, int patienceMs)
+        : m_socket(socket)
+        , m_patienceMs(patienceMs) {}
+    /// False at the end of the stream. Throws when nothing comes for too long.
+    bool receive(void* data, size_t bytes) const;
+
+  private:
+    int m_socket, m_patienceMs;
+};
+
+bool Stream::receive(void* data, size_t bytes) const {
     char* at = static_cast<char*>(data);
     while (bytes > 0) {
         throwIfInterrupted();
-        pollfd waiting = {socket, POLLIN, 0};
-        const int ready = poll(&waiting, 1, kPatienceMs);
+        pollfd waiting = {m_socket, POLLIN, 0};
+        const int ready = poll(&waiting, 1, m_patienceMs);
         if (ready < 0 && errno == EINTR) continue;
         if (ready == 0)
-            throw DeviceError(formatText("the engine gave no sign of life for %d s and was ended", kPatienceMs / 1000));
-        const ssize_t got = read(socket, at, bytes);
+            throw DeviceError(
+                formatText("the engine gave no sign of life for %d s and was ended", m_patienceMs / 1000));
+        const ssize_t got = read(m_socket, at, bytes);
         if (got < 0 && errno == EINTR) continue;
         if (got <= 0) return false;
         at += got;
@@ -123,34 +137,18 @@ bool receive(int socket, void* data, size_t bytes) {
     return true;
 }
 
-/// BGR rows, bottom first, padded to 4 bytes, as the interposer sends them.
-HostFrame pictureFrom(const WatchMessage& message, const std::vector<uint8_t>& bgr) {
-    HostFrame frame;
-    const auto width = static_cast<size_t>(message.width), height = static_cast<size_t>(message.height);
-    const size_t rowBytes = (width * 3 + 3) & ~size_t{3};
-    if (bgr.empty() || bgr.size() != rowBytes * height) return frame;
-    frame.width = message.width;
-    frame.height = message.height;
-    frame.rgb.resize(width * height * 3);
-    for (size_t y = 0; y < height; ++y)
-        for (size_t x = 0; x < width; ++x)
-            for (size_t channel = 0; channel < 3; ++channel)
-                frame.rgb[(y * width + x) * 3 + channel] = bgr[(height - 1 - y) * rowBytes + x * 3 + 2 - channel];
-    return frame;
-}
-
-void receiveFrames(int socket, const std::function<void(const WatchedFrame&)>& onFrame) {
+void receiveFrames(const Stream& stream, const std::function<void(const WatchedFrame&)>& onFrame) {
     WatchMessage message;
-    while (receive(socket, &message, sizeof message)) {
+    while (stream.receive(&message, sizeof message)) {
         if (message.magic != WatchMessage::kMagic) throw DeviceError("the engine's frame reports are garbled");
         WatchedFrame frame;
         frame.frame = message.frame;
         frame.wallMs = message.wallMs;
         frame.text.resize(message.textBytes);
         std::vector<uint8_t> picture(message.pictureBytes);
-        if (!receive(socket, frame.text.data(), frame.text.size()) || !receive(socket, picture.data(), picture.size()))
+        if (!stream.receive(frame.text.data(), frame.text.size()) || !stream.receive(picture.data(), picture.size()))
             return;
-        frame.picture = pictureFrom(message, picture);
+        frame.picture = frameFromVideo(message.width, message.height, picture);
         onFrame(frame);
     }
 }
@@ -171,12 +169,20 @@ void runEngine(const EngineRun& run, const std::function<void(const WatchedFrame
     Child child(command, output.number, theirs.number);
     Descriptor ours(pair[0]); // closed before the child is waited for: it may be writing
     theirs.reset();
-    if (run.watched) receiveFrames(ours.number, onFrame);
+    std::string cvars;
+    const auto take = [&](const WatchedFrame& frame) {
+        if (frame.frame == WatchMessage::kCvars)
+            cvars = frame.text;
+        else
+            onFrame(frame);
+    };
+    if (run.watched) receiveFrames({ours.number, run.headless ? kPatienceMs : kForeverMs}, take);
     const int status = child.wait();
     const std::string said = run.headless ? readConsole(console) : std::string();
     const std::string error = findLastError(said);
-    for (const std::string& complaint : listComplaints(said, run.cvars))
-        if (complaint != error) std::fprintf(stderr, "q3rt: %s\n", complaint.c_str());
+    for (const auto& complaints : {listComplaints(said, run.cvars), listUndeclared(cvars, run.cvars)})
+        for (const std::string& complaint : complaints)
+            if (complaint != error) std::fprintf(stderr, "q3rt: %s\n", complaint.c_str());
     if (error.starts_with(kRecordingEnded)) throw UsageError(error.substr(std::strlen(kRecordingEnded)));
     if (!error.empty() || status != 0)
         throw DeviceError(formatText("the engine failed (status %d)%s%s; 'q3rt doctor' looks for the cause", status,

@@ -38,7 +38,7 @@ struct EngineRun {
     int recordFirst = 0, recordCount = 0; ///< world frames; count 0: all
 };
 
-/// One message of the interposer.
+/// One message of the interposer about the renderer.
 struct WatchedFrame {
     int frame = 0; ///< world frame, or WatchMessage::kStarted: then `text` is the device
     double wallMs = 0;

@@ -203,7 +203,7 @@ EngineCommand prepareEngine(const EngineRun& run, const fs::path& home) {
     }
     environment.emplace_back(kWatchEvery, std::to_string(run.pictureEvery));
     environment.emplace_back(kWatchStats, run.wantsStats ? "1" : "0");
-    environment.emplace_back(kWatchCvars, run.headless && !run.cvars.empty() ? "1" : "0");
+    environment.emplace_back(kWatchCvars, run.cvars.empty() ? "0" : "1");
     environment.emplace_back(kWatchFrames, std::to_string(run.frameLimit));
     return command;
 }

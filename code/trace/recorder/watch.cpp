@@ -15,6 +15,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr int kUserCreated = 0x80; ///< the engine's cvar flag
+
 struct Watch {
     int socket = -1;
     long every = 0, lastFrame = 0; ///< 0: no pictures, no end
@@ -52,6 +54,23 @@ void sendMessage(WatchMessage message, const char* text) {
     watch->picture.clear();
     // Whoever started the engine is gone: nobody wants the rest.
     if (!sent) recording.engine.Cmd_ExecuteText(Q3_EXEC_APPEND, "quit\n");
+}
+
+/// The engine links all of them, in both directions from any.
+void sendCvars() {
+    const cvar_t* cvar = recording.engine.Cvar_Get("q3rt_stats", "", 0);
+    if (!cvar) return;
+    while (cvar->prev)
+        cvar = cvar->prev;
+    std::string names;
+    for (; cvar; cvar = cvar->next) {
+        if (cvar->flags & kUserCreated) names += WatchMessage::kUndeclared;
+        names += cvar->name;
+        names += '\n';
+    }
+    WatchMessage message;
+    message.frame = WatchMessage::kCvars;
+    sendMessage(message, names.c_str());
 }
 
 } // namespace
@@ -111,8 +130,7 @@ void watchFrameEnded() {
     const cvar_t* stats = recording.engine.Cvar_Get("q3rt_stats", "", 0);
     sendMessage(message, stats ? stats->string : "");
     // By the first frame of the world engine, game and renderer have declared theirs.
-    if (watch->frame == 1 && numberFrom(kWatchCvars) != 0)
-        recording.engine.Cmd_ExecuteText(Q3_EXEC_APPEND, "cvarlist\n");
+    if (watch->frame == 1 && numberFrom(kWatchCvars) != 0) sendCvars();
     if (watch->frame == watch->lastFrame) recording.engine.Cmd_ExecuteText(Q3_EXEC_APPEND, "quit\n");
 }
 
