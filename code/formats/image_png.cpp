@@ -80,6 +80,12 @@ void appendBytes(void* target, void* data, int size) {
     bytes->insert(bytes->end(), first, first + size);
 }
 
+/// stb_image gives none for a kind of packed block that there isn't.
+const char* failureReason() {
+    const char* reason = stbi_failure_reason();
+    return reason ? reason : "its packed pixels are damaged";
+}
+
 } // namespace
 
 Image decodePng(std::span<const std::byte> file, const std::string& name) {
@@ -88,11 +94,11 @@ Image decodePng(std::span<const std::byte> file, const std::string& name) {
     const auto* bytes = reinterpret_cast<const stbi_uc*>(file.data());
     const int length = static_cast<int>(file.size());
     int width = 0, height = 0, channels = 0;
-    if (!stbi_info_from_memory(bytes, length, &width, &height, &channels)) failImage(name, stbi_failure_reason());
+    if (!stbi_info_from_memory(bytes, length, &width, &height, &channels)) failImage(name, failureReason());
     checkImageSize(width, height, file.size(), kMaxPixelsPerByte, name);
     const std::unique_ptr<stbi_uc, FreePixels> pixels(
         stbi_load_from_memory(bytes, length, &width, &height, &channels, STBI_rgb_alpha));
-    if (!pixels) failImage(name, stbi_failure_reason());
+    if (!pixels) failImage(name, failureReason());
     Image image{width, height, {}};
     image.rgba.assign(pixels.get(), pixels.get() + static_cast<size_t>(width) * static_cast<size_t>(height) * 4);
     return image;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <thread>
 
 #include "base/error.hpp"
 #include "formats/image.hpp"
@@ -123,6 +124,14 @@ TEST(Png, TruncationAndHugeClaimsAreRefused) {
     for (const size_t offset : {17u, 21u})
         huge[offset] = std::byte{0x7F};
     EXPECT_TRUE(refused(huge, "a.png"));
+}
+
+// In a thread of its own, where the library has had nothing to say yet.
+TEST(Png, DamageWithoutAReasonIsRefusedToo) {
+    std::vector<std::byte> file = encodePng(5, 3, 4, makePattern(5, 3, 4));
+    constexpr size_t kFirstBlock = 43;   // behind the signature, the header's chunk, and two bytes of zlib's
+    file[kFirstBlock] = std::byte{0x07}; // the last block, of the fourth of three kinds
+    std::thread([&] { EXPECT_TRUE(refused(file, "a.png")); }).join();
 }
 
 TEST(Tga, ScreenshotRoundTripIsExact) {
