@@ -13,7 +13,8 @@ FrameRing::FrameRing(Device& device, uint32_t framesInFlight)
     for (Slot& slot : m_slots) {
         VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
         pool.queueFamilyIndex = device.queueFamily();
-        vkCheck(vkCreateCommandPool(device.handle(), &pool, nullptr, &slot.pool), "vkCreateCommandPool");
+        vkCheck(vkCreateCommandPool(device.handle(), &pool, slot.memory->callbacks(), &slot.pool),
+                "vkCreateCommandPool");
         VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
         allocate.commandPool = slot.pool;
         allocate.commandBufferCount = 1;
@@ -27,9 +28,9 @@ FrameRing::FrameRing(Device& device, uint32_t framesInFlight)
 FrameRing::~FrameRing() {
     if (m_recording) m_device.m_frameOpen = false;
     for (Slot& slot : m_slots)
-        m_device.retire([device = m_device.handle(), pool = slot.pool, fence = slot.fence] {
+        m_device.retire([device = m_device.handle(), memory = slot.memory, pool = slot.pool, fence = slot.fence] {
             vkDestroyFence(device, fence, nullptr);
-            vkDestroyCommandPool(device, pool, nullptr);
+            vkDestroyCommandPool(device, pool, memory->callbacks());
         });
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "gpu/command_memory.hpp"
 #include "gpu/descriptors.hpp"
 #include "gpu/gpu_timers.hpp"
 
@@ -43,6 +44,7 @@ class FrameRing {
 
   private:
     struct Slot {
+        std::shared_ptr<CommandMemory> memory = std::make_shared<CommandMemory>(); // of the pool
         VkCommandPool pool = VK_NULL_HANDLE;
         VkCommandBuffer commands = VK_NULL_HANDLE;
         VkFence fence = VK_NULL_HANDLE;
