@@ -94,7 +94,11 @@ void DrawListBuilder::buildView(ViewWork& work) {
     buildViewGeometry(work.frame, *work.view.scene, work.view.eye, m_world, m_models, m_materials, geometry,
                       work.geometry);
     work.vertexBase = static_cast<uint32_t>(work.out.vertices.size());
-    work.out.vertices.insert(work.out.vertices.end(), work.geometry.vertices.begin(), work.geometry.vertices.end());
+    // Shadow volumes are made of the view's vertices while theirs are added.
+    if (work.out.vertices.empty() && geometry.shadows != Shadows::Volume)
+        work.out.vertices.swap(work.geometry.vertices); // both keep the memory of a busy frame
+    else
+        work.out.vertices.insert(work.out.vertices.end(), work.geometry.vertices.begin(), work.geometry.vertices.end());
     work.entityIndices.assign(work.geometry.entities.size(), -1);
     work.fogIndices.assign(m_world ? m_world->fogs.size() : 1, -1);
 
@@ -230,7 +234,8 @@ bool DrawListBuilder::addPortalView(ViewWork& work) {
             item.fromWorld ? static_cast<int>(item.surface) : work.geometry.surfaces[item.surface].worldSurface;
         const WorldSurface* face = worldSurface >= 0 ? &m_world->surfaces[static_cast<size_t>(worldSurface)] : nullptr;
         const bool planar = face && face->type == BspSurfaceType::Planar;
-        const std::vector<Vertex>& vertices = item.fromWorld ? m_world->vertices : work.geometry.vertices;
+        const std::span<const Vertex> vertices =
+            item.fromWorld ? std::span(m_world->vertices) : std::span(work.out.vertices).subspan(work.vertexBase);
         const std::vector<uint32_t>& all = item.fromWorld ? m_world->indices : work.geometry.indices;
         const uint32_t first = item.fromWorld ? m_world->surfaces[item.surface].firstIndex
                                               : work.geometry.surfaces[item.surface].firstIndex;

@@ -136,6 +136,7 @@ bool rectangleShows(const vec2& corner, const vec2& opposite, const vec2& viewSi
 
 TriangleCuller::TriangleCuller() { m_screen.reserve(busyFrame::kWorkVertices); }
 
+Q3RT_NEWER_PROCESSORS_TOO
 void TriangleCuller::project(const TriangleView& view, std::span<const Vertex> vertices) {
     const mat4& m = view.clipFromModel;
     const vec2 edge = 1.0f + 2.0f * kSlackPx / view.sizePx, half = 0.5f * view.sizePx;
@@ -161,6 +162,7 @@ void TriangleCuller::project(const TriangleView& view, std::span<const Vertex> v
     }
 }
 
+Q3RT_NEWER_PROCESSORS_TOO
 void TriangleCuller::cull(const TriangleView& view, std::span<const Vertex> vertices, std::vector<uint32_t>& indices,
                           size_t first, std::vector<uint32_t>* occluders) {
     if (first >= indices.size()) return;

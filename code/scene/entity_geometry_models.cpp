@@ -77,9 +77,12 @@ void addMeshSurface(const ViewBuild& build, const SceneEntity& entity, const Ani
         appendDeformed(build, drawn, context, mesh, surface);
     } else {
         mesh.appendVertices(source.surface, frames, build.out.bones, build.out.vertices);
-        for (const uint32_t index : mesh.indices(source.surface)) {
-            build.out.indices.push_back(surface.firstVertex + index);
-        }
+        const std::span<const uint32_t> indices = mesh.indices(source.surface);
+        std::vector<uint32_t>& out = build.out.indices;
+        const size_t first = out.size();
+        out.resize(first + indices.size());
+        for (size_t i = 0; i < indices.size(); ++i)
+            out[first + i] = surface.firstVertex + indices[i];
     }
     closeSurface(build, surface);
 }

@@ -136,6 +136,20 @@ void clipPolygon(std::vector<vec3>& polygon, const Plane& plane, std::vector<vec
 
 } // namespace
 
+namespace {
+
+/// Does the box lie behind one of the planes? Nothing of it is then left: that takes a point kOnPlaneQu before each,
+/// and rounding is far less.
+bool liesBehind(const Bounds& box, std::span<const Plane> planes) {
+    if (box.empty()) return false;
+    const vec3 centre = (box.mins + box.maxs) * 0.5f, half = (box.maxs - box.mins) * 0.5f;
+    return std::ranges::any_of(planes, [&](const Plane& plane) {
+        return glm::dot(plane.normal, centre) + glm::dot(glm::abs(plane.normal), half) < plane.distance;
+    });
+}
+
+} // namespace
+
 /// The caller's buffers and their limits.
 struct MarkClipper::Output {
     size_t maxPoints, maxFragments;
@@ -161,6 +175,7 @@ void MarkClipper::clipTriangle(const Volume& volume, const vec3* corners, Output
 }
 
 void MarkClipper::clipSurface(const World& world, const Volume& volume, const WorldSurface& surface, Output& out) {
+    if (liesBehind(surface.bounds, volume.planes)) return;
     for (uint32_t i = 0; i + 2 < surface.indexCount && !out.full(); i += 3) {
         vec3 corners[3];
         for (uint32_t k = 0; k < 3; ++k) {

@@ -307,9 +307,25 @@ StageState evaluateStage(const Material& material, const Stage& stage, const Sta
 }
 
 void StageTable::beginFrame() {
-    m_states.clear();
-    m_keys.clear();
+    // What was new in the last frame and lasts moves forward to what did before.
+    for (Key& key : m_keys) {
+        if (!key.lasts || key.range.first < m_lastingCount) continue;
+        std::copy_n(m_states.begin() + key.range.first, key.range.count,
+                    m_states.begin() + static_cast<ptrdiff_t>(m_lastingCount));
+        key.range.first = static_cast<uint32_t>(m_lastingCount);
+        m_lastingCount += key.range.count;
+    }
+    m_states.resize(m_lastingCount);
+    std::erase_if(m_keys, [](const Key& key) { return !key.lasts; });
     m_heads.assign(kBuckets, kNoKey);
+    for (Key& key : m_keys)
+        addToChain(key);
+}
+
+void StageTable::addToChain(Key& key) {
+    uint32_t& head = m_heads[hashInputs(key.material, key.inputs) % kBuckets];
+    key.next = head;
+    head = static_cast<uint32_t>(&key - m_keys.data());
 }
 
 StageRange StageTable::evaluate(MaterialId material, const StageInputs& inputs) {
@@ -325,8 +341,7 @@ StageRange StageTable::evaluate(MaterialId material, const StageInputs& inputs) 
         used.hasEntity = inputs.hasEntity;
     }
     if (m_heads.empty()) m_heads.assign(kBuckets, kNoKey);
-    uint32_t& head = m_heads[hashInputs(id, used) % kBuckets];
-    for (uint32_t key = head; key != kNoKey; key = m_keys[key].next)
+    for (uint32_t key = m_heads[hashInputs(id, used) % kBuckets]; key != kNoKey; key = m_keys[key].next)
         if (m_keys[key].material == id && sameInputs(m_keys[key].inputs, used)) return m_keys[key].range;
     const StageRange range{static_cast<uint32_t>(m_states.size()), static_cast<uint32_t>(drawn.stages.size())};
     for (const Stage& stage : drawn.stages) {
@@ -335,8 +350,8 @@ StageRange StageTable::evaluate(MaterialId material, const StageInputs& inputs) 
             unit.clamped = m_textures.get(unit.texture).flags.clamp ? 1 : 0;
         m_states.push_back(state);
     }
-    m_keys.push_back({id, used, range, head});
-    head = static_cast<uint32_t>(m_keys.size() - 1);
+    m_keys.push_back({id, used, range, kNoKey, !drawn.usesTime && !drawn.usesEntity});
+    addToChain(m_keys.back());
     return range;
 }
 

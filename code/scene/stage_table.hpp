@@ -22,6 +22,7 @@ struct StageInputs {
     bool hasEntity = false; ///< false: world, polys, 2D: entity colours are 0
 };
 
+/// Stages that nothing changes stay: they come first, and keep their places from the frame on that follows their first.
 class StageTable {
   public:
     StageTable(const MaterialLibrary& materials, const TextureLibrary& textures, float identityLight)
@@ -31,11 +32,13 @@ class StageTable {
         m_states.reserve(busyFrame::kStages);
         m_keys.reserve(busyFrame::kStages);
     }
-    /// Forgets the last frame. Keeps its memory.
+    /// Forgets the last frame but for what stays. Keeps its memory.
     void beginFrame();
     /// Follows remapping (one level): pass the surface's own material. Materials that share stages share ranges.
     StageRange evaluate(MaterialId material, const StageInputs& inputs);
     const std::vector<StageState>& states() const { return m_states; }
+    /// How many of the states are what they were at their places in every earlier frame that had as many.
+    size_t lastingCount() const { return m_lastingCount; }
     const TextureLibrary& textures() const { return m_textures; }
     float identityLight() const { return m_identityLight; }
 
@@ -50,11 +53,14 @@ class StageTable {
         StageInputs inputs;
         StageRange range;
         uint32_t next; ///< of the chain
+        bool lasts;    ///< no stage reads time or entity
     };
+    void addToChain(Key& key);
     static constexpr uint32_t kNoKey = ~0u;
     static constexpr size_t kBuckets = 1024; ///< several times the evaluations of a usual frame
     std::vector<Key> m_keys;
     std::vector<uint32_t> m_heads; ///< by hash: newest key of the chain
+    size_t m_lastingCount = 0;     ///< of m_states
 };
 
 /// One stage at one time; pure.

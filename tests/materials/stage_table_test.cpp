@@ -160,8 +160,32 @@ TEST_F(Table, EvaluatesEachUseOnce) {
     EXPECT_EQ(table.states().size(), 1u + 2 * 2 + 2);
     EXPECT_EQ(table.states()[first.first].unit[0].clamped, 1u);
     EXPECT_EQ(table.states()[table.evaluate(moving, late).first].unit[0].clamped, 0u);
+}
+
+TEST_F(Table, KeepsWhatNothingChanges) {
+    files.addText("scripts/t.shader", "moving\n{\n{ map b\n tcMod scroll 1 1\n }\n}\nstill\n{\n{ clampmap a }\n}\n"
+                                      "pair\n{\n{ map c }\n{ map d\n blendFunc add\n }\n}\n");
+    const MaterialId still = library().find("still", -1), moving = library().find("moving", -1);
+    const MaterialId pair = library().find("pair", -1);
+    StageTable table(library(), *textures, 1);
+    const auto textureOf = [&](MaterialId material) {
+        return table.states()[table.evaluate(material, {}).first].unit[0].texture;
+    };
     table.beginFrame();
-    EXPECT_TRUE(table.states().empty());
+    const uint32_t of[3] = {textureOf(moving), textureOf(still), textureOf(pair)};
+    EXPECT_EQ(table.lastingCount(), 0u);
+    table.beginFrame();
+    EXPECT_EQ(table.lastingCount(), 3u) << "two of the pair, one that stands still";
+    EXPECT_EQ(table.states().size(), 3u) << "what moves is forgotten";
+    EXPECT_EQ(table.evaluate(still, {}).first, 0u);
+    EXPECT_EQ(table.evaluate(pair, {}).first, 1u);
+    EXPECT_EQ(table.evaluate(moving, {}).first, 3u);
+    EXPECT_EQ(textureOf(moving), of[0]);
+    EXPECT_EQ(textureOf(still), of[1]);
+    EXPECT_EQ(textureOf(pair), of[2]);
+    table.beginFrame();
+    EXPECT_EQ(table.lastingCount(), 3u);
+    EXPECT_EQ(table.evaluate(pair, {}).first, 1u) << "at the same place in every frame";
 }
 
 TEST_F(Table, FollowsRemappingAndItsOffset) {
