@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "renderer_vk/patch_lod.hpp"
 #include "renderer_vk/stage_passes.hpp"
@@ -130,8 +131,10 @@ void DrawListBuilder::appendItemIndices(ViewWork& work, const Item& item) {
     std::vector<uint32_t>& out = work.out.indices;
     if (!item.fromWorld) {
         const EntitySurface& surface = work.geometry.surfaces[item.surface];
+        const size_t first = out.size();
+        out.resize(first + surface.indexCount);
         for (uint32_t i = 0; i < surface.indexCount; ++i)
-            out.push_back(work.vertexBase + work.geometry.indices[surface.firstIndex + i]);
+            out[first + i] = work.vertexBase + work.geometry.indices[surface.firstIndex + i];
         return;
     }
     const WorldSurface& surface = m_world->surfaces[item.surface];
@@ -160,6 +163,7 @@ void DrawListBuilder::makeBatches(ViewWork& work) {
         draw.clearColor = true;
         draw.clearGrey = static_cast<float>(scene.timeMs & 255) / 255.0f;
     }
+    if (!work.out.views.empty()) appendDepthClear(work, draw);
     draw.firstBatch = static_cast<uint32_t>(work.out.batches.size());
     const bool volumes = work.settings.geometry.shadows == Shadows::Volume;
     bool volumesDrawn = !volumes;
@@ -187,6 +191,15 @@ void DrawListBuilder::makeBatches(ViewWork& work) {
     if (work.settings.raster.r_speeds != 0) countView(work);
     draw.batchCount = static_cast<uint32_t>(work.out.batches.size()) - draw.firstBatch;
     work.out.views.push_back(draw);
+}
+
+/// Between what is drawn a square at the far end clears as well. For a command that clears a software driver waits
+/// until all before it is drawn.
+void DrawListBuilder::appendDepthClear(ViewWork& work, ViewDraw& draw) {
+    constexpr float kFar = 1.0f;
+    draw.clearEntity = screenEntity(work);
+    draw.depthClear = {static_cast<uint32_t>(work.out.indices.size()), 6};
+    appendScreenSquare(work, vec2(0.0f), vec2(draw.width, draw.height), kFar, 0);
 }
 
 void DrawListBuilder::appendBatch(ViewWork& work, size_t firstItem, size_t lastItem) {
@@ -220,8 +233,9 @@ void DrawListBuilder::appendBatch(ViewWork& work, size_t firstItem, size_t lastI
     if (batch.indexCount == 0) return;
     batch.stages = m_stages.evaluate(id, record.stage);
     batch.fog = fogIndex(work, last.fog);
-    if (work.settings.cullTriangles && batch.fog < 0) trimEffects(work, batch, firstItem, lastItem);
     batch.erasesShadows = work.settings.geometry.shadows == Shadows::Volume && material.sort > kShadowVolumeSort;
+    const bool trims = work.settings.cullTriangles && batch.fog < 0 && !batch.erasesShadows;
+    if (trims) trimEffects(work, batch, firstItem, lastItem);
     if (heldInHand) batch.depthRange = DepthRange::Weapon;
     constexpr uint32_t kUnlit = surfaceParm::kNoDlight | surfaceParm::kSky;
     if (material.sort <= 3 && (material.surfaceFlags & kUnlit) == 0) appendLights(work, batch, firstItem, lastItem);
@@ -229,28 +243,63 @@ void DrawListBuilder::appendBatch(ViewWork& work, size_t firstItem, size_t lastI
     if (work.settings.raster.r_shownormals != 0) appendNormals(work, batch);
 }
 
-/// The vertices of effects are the view's own: they move where the picture begins and ends.
-void DrawListBuilder::trimEffects(ViewWork& work, const DrawBatch& batch, size_t firstItem, size_t lastItem) {
+/// The vertices of effects are the view's own: they move where the picture begins and ends, for each stage by itself.
+void DrawListBuilder::trimEffects(ViewWork& work, DrawBatch& batch, size_t firstItem, size_t lastItem) {
     if (batch.source != VertexSource::Dynamic || batch.stages.count == 0) return;
-    const std::vector<Stage>& stages = m_materials.get(batch.material).stages;
-    TexturePart shown{vec2(1.0f), vec2(0.0f)};
-    vec2 sizeTexels(0.0f);
-    for (uint32_t i = 0; i < batch.stages.count; ++i) {
-        const StageState& state = m_stages.states()[batch.stages.first + i];
+    const auto isSquare = [&](const Item& item) { return work.geometry.surfaces[item.surface].vertexCount == 4; };
+    const auto items = std::span(work.items).subspan(firstItem, lastItem - firstItem);
+    if (std::ranges::none_of(items, isSquare)) return;
+    const size_t firstIndex = work.out.indices.size(), firstVertex = work.out.vertices.size();
+    const auto firstRange = static_cast<uint32_t>(work.out.stageRanges.size());
+    bool trimmed = false;
+    for (uint32_t stage = 0; stage < batch.stages.count; ++stage) {
+        const size_t first = work.out.indices.size();
+        for (const Item& item : items)
+            trimmed |= appendTrimmed(work, batch, stage, item);
+        cullTriangles(work, batch, m_materials.get(batch.material).cull, first);
+        work.out.stageRanges.push_back(
+            {static_cast<uint32_t>(first), static_cast<uint32_t>(work.out.indices.size() - first)});
+    }
+    if (trimmed) {
+        batch.firstStageRange = static_cast<int>(firstRange);
+        return;
+    }
+    work.out.indices.resize(firstIndex);
+    work.out.vertices.resize(firstVertex);
+    work.out.stageRanges.resize(firstRange);
+}
+
+/// Indices of an item as a stage shows it; false if it shows all.
+bool DrawListBuilder::appendTrimmed(ViewWork& work, const DrawBatch& batch, uint32_t stage, const Item& item) {
+    const EntitySurface& surface = work.geometry.surfaces[item.surface];
+    const uint32_t firstVertex = work.vertexBase + surface.firstVertex;
+    const auto trim = [&]() -> std::optional<TexturePart> {
+        const StageState& state = m_stages.states()[batch.stages.first + stage];
         const size_t texture = state.unit[0].texture;
-        if (texture >= work.settings.textureParts.size()) return;
+        if (surface.vertexCount != 4 || texture >= work.settings.textureParts.size()) return std::nullopt;
+        const EffectSquare square(std::span(work.out.vertices).subspan(firstVertex).first<4>(),
+                                  triangleView(work, batch));
+        if (!square.usable()) return std::nullopt;
         const TextureParts& parts = work.settings.textureParts[texture];
-        shown.add(findPartShown(stages[i], state, parts));
-        sizeTexels = glm::max(sizeTexels, parts.sizeTexels);
+        const Stage& kind = m_materials.get(batch.material).stages[stage];
+        const TexturePart part = findPartShown(kind, state, parts, square.texelsPerPixel(parts.sizeTexels));
+        if (part.whole()) return std::nullopt;
+        if (part.empty()) return part;
+        const size_t first = work.out.vertices.size();
+        work.out.vertices.resize(first + 4);
+        square.write(part, std::span(work.out.vertices).subspan(first).first<4>());
+        return part;
+    };
+    const std::optional<TexturePart> part = trim();
+    if (!part) {
+        appendItemIndices(work, item);
+        return false;
     }
-    if (shown.least == vec2(0.0f) && shown.greatest == vec2(1.0f)) return;
-    const TriangleView view = triangleView(work, batch);
-    for (size_t i = firstItem; i < lastItem; ++i) {
-        const EntitySurface& surface = work.geometry.surfaces[work.items[i].surface];
-        if (surface.vertexCount != 4) continue;
-        const auto vertices = std::span(work.out.vertices).subspan(work.vertexBase + surface.firstVertex);
-        trimSquare(vertices.first<4>(), shown, sizeTexels, view);
-    }
+    if (part->empty()) return true;
+    const auto base = static_cast<uint32_t>(work.out.vertices.size()) - 4 - surface.firstVertex;
+    for (uint32_t i = 0; i < surface.indexCount; ++i)
+        work.out.indices.push_back(base + work.geometry.indices[surface.firstIndex + i]);
+    return true;
 }
 
 void DrawListBuilder::cullTriangles(ViewWork& work, const DrawBatch& batch, CullMode cull, size_t firstIndex) {

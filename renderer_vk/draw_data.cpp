@@ -20,6 +20,7 @@ void FrameDrawData::reserve() {
     lightDraws.reserve(busyFrame::kSurfaces);
     fogs.reserve(busyFrame::kSmall);
     ownStages.reserve(busyFrame::kSmall);
+    stageRanges.reserve(busyFrame::kSurfaces);
     batches.reserve(busyFrame::kSurfaces);
     views.reserve(busyFrame::kSmall);
     flareTests.reserve(busyFrame::kSmall);
@@ -34,6 +35,7 @@ void FrameDrawData::clear() {
     lightDraws.clear();
     fogs.clear();
     ownStages.clear();
+    stageRanges.clear();
     batches.clear();
     views.clear();
     flareTests.clear();

@@ -35,6 +35,10 @@ enum class OwnDraw : uint8_t {
     Normals       ///< lines, over everything
 };
 
+struct IndexRange {
+    uint32_t first = 0, count = 0;
+};
+
 /// Triangles of one material, entity and fog, drawn stage by stage.
 struct DrawBatch {
     MaterialId material = 0;     ///< the one that is drawn (remapped)
@@ -48,6 +52,7 @@ struct DrawBatch {
     DepthRange depthRange = DepthRange::Normal;
     uint32_t entity = 0; ///< in FrameDrawData::entities
     uint32_t firstIndex = 0, indexCount = 0;
+    int firstStageRange = -1; ///< in FrameDrawData::stageRanges: what a stage shows of the batch; -1 all
     uint32_t firstOccluder = 0,
              occluderCount = 0;              ///< in FrameDrawData::occluders: if its depth is drawn first, of this
     uint32_t firstLight = 0, lightCount = 0; ///< in FrameDrawData::lightDraws
@@ -71,6 +76,8 @@ struct ViewDraw {
     uint32_t firstBatch = 0, batchCount = 0;
     uint32_t firstFlareTest = 0, flareTestCount = 0; ///< in FrameDrawData::flareTests
     uint32_t flareEntity = 0;                        ///< of their pixels
+    IndexRange depthClear;                           ///< if any, these clear its depth
+    uint32_t clearEntity = 0;                        ///< of their vertices
 };
 
 /// A pixel that is drawn to nothing: does it lie before what is drawn?
@@ -100,6 +107,7 @@ struct FrameDrawData {
     std::vector<LightDraw> lightDraws; ///< parallel to lights
     std::vector<RasterFog> fogs;
     std::vector<StageState> ownStages;
+    std::vector<IndexRange> stageRanges;
     std::vector<DrawBatch> batches;
     std::vector<ViewDraw> views;
     std::vector<FlareTest> flareTests;

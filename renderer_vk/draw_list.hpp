@@ -85,11 +85,13 @@ class DrawListBuilder {
     bool addPortalView(ViewWork& work);
     ViewMemory& memoryOf(int portalDepth);
     void makeBatches(ViewWork& work);
+    void appendDepthClear(ViewWork& work, ViewDraw& draw);
     void appendBatch(ViewWork& work, size_t firstItem, size_t lastItem);
     void findSkyCoverage(ViewWork& work, size_t firstItem, size_t lastItem);
     TriangleView triangleView(const ViewWork& work, const DrawBatch& batch) const;
     const std::vector<Vertex>& verticesOf(const ViewWork& work, const DrawBatch& batch) const;
-    void trimEffects(ViewWork& work, const DrawBatch& batch, size_t firstItem, size_t lastItem);
+    void trimEffects(ViewWork& work, DrawBatch& batch, size_t firstItem, size_t lastItem);
+    bool appendTrimmed(ViewWork& work, const DrawBatch& batch, uint32_t stage, const Item& item);
     void cullTriangles(ViewWork& work, const DrawBatch& batch, CullMode cull, size_t firstIndex);
     void appendSky(ViewWork& work, const Material& material, MaterialId id, size_t firstItem, size_t lastItem);
     void appendShadowVolumes(ViewWork& work);

@@ -1,14 +1,15 @@
 #include "renderer_vk/effect_trim.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
 
 namespace q3rt {
 
 namespace {
 
 constexpr float kNearestW = 1.0f; // qu: what is nearer is left alone
+constexpr float kManyTexels = 1e9f;
 
 // Depths of the corners may differ by this factor: texels a pixel then differ by its square, less than the two between
 // what is asked for and what the part holds for.
@@ -47,12 +48,12 @@ void addRange(const TexelRange& range, int count, bool clamped, float& least, fl
     greatest = std::max(greatest, to);
 }
 
-template <typename TexelHasSomething>
-TexturePart findPart(const Texture& texture, const TexelHasSomething& texelHasSomething) {
-    TexturePart part{vec2(1.0f), vec2(0.0f)};
-    constexpr size_t kLevels = 2; // full size and half
-    for (size_t i = 0; i < std::min(kLevels, texture.levels.size()); ++i) {
-        const MipLevel& level = texture.levels[i];
+/// Of the levels down to the one that is read at a depth, one after the other.
+class PartFinder {
+  public:
+    /// Bounds grow by what the level has.
+    template <typename TexelHasSomething>
+    void addLevel(const MipLevel& level, bool clamped, const TexelHasSomething& texelHasSomething) {
         const auto texel = [&](int x, int y) {
             return texelHasSomething(&level.rgba[(static_cast<size_t>(y) * level.width + x) * 4]);
         };
@@ -66,46 +67,105 @@ TexturePart findPart(const Texture& texture, const TexelHasSomething& texelHasSo
                 if (texel(x, y)) return true;
             return false;
         };
-        const bool clamped = texture.flags.clamp;
-        addRange(findRange(level.height, row), level.height, clamped, part.least.y, part.greatest.y);
-        addRange(findRange(level.width, column), level.width, clamped, part.least.x, part.greatest.x);
+        addRange(findRange(level.height, row), level.height, clamped, m_least.y, m_greatest.y);
+        addRange(findRange(level.width, column), level.width, clamped, m_least.x, m_greatest.x);
+        if (clamped) addCircle(level, texel);
     }
-    const bool empty = part.least.x >= part.greatest.x || part.least.y >= part.greatest.y;
-    return empty ? TexturePart{} : part;
+    TexturePart part() const {
+        if (m_least.x >= m_greatest.x || m_least.y >= m_greatest.y) return {};
+        return {m_least, m_greatest, m_centre, m_radius};
+    }
+
+  private:
+    template <typename Texel>
+    void addCircle(const MipLevel& level, const Texel& texel) {
+        if (m_radius == 0) m_centre = 0.5f * (m_least + m_greatest);
+        const vec2 size(level.width, level.height);
+        float greatest = -1;
+        for (int y = 0; y < level.height; ++y) {
+            for (int x = 0; x < level.width; ++x) {
+                if (!texel(x, y)) continue;
+                const vec2 away = (vec2(x, y) + 0.5f) / size - m_centre;
+                greatest = std::max(greatest, glm::dot(away, away));
+            }
+        }
+        const float reach = 1.5f * glm::length(1.0f / size); // of filters, and rounding, as for the sides
+        if (greatest >= 0) m_radius = std::max(m_radius, std::sqrt(greatest) + reach);
+    }
+    vec2 m_least{1.0f}, m_greatest{0.0f}, m_centre{0.5f};
+    float m_radius = 0;
+};
+
+template <typename TexelHasSomething>
+std::array<TexturePart, TextureParts::kDepths> findParts(const Texture& texture,
+                                                         const TexelHasSomething& texelHasSomething) {
+    std::array<TexturePart, TextureParts::kDepths> parts;
+    PartFinder finder;
+    const auto add = [&](size_t level) {
+        if (level < texture.levels.size())
+            finder.addLevel(texture.levels[level], texture.flags.clamp, texelHasSomething);
+    };
+    add(0);
+    for (size_t depth = 0; depth < parts.size(); ++depth) {
+        add(depth + 1);
+        parts[depth] = finder.part();
+    }
+    return parts;
 }
 
-/// Corners by s + 2 t.
-using Corners = std::array<Vertex*, 4>;
-
-bool findCorners(std::span<Vertex, 4> square, Corners& corners) {
-    corners = {};
-    for (Vertex& vertex : square) {
-        const vec2& st = vertex.st;
-        if ((st.x != 0 && st.x != 1) || (st.y != 0 && st.y != 1) || vertex.color != square[0].color) return false;
-        corners[static_cast<size_t>(st.x + 2 * st.y)] = &vertex;
-    }
-    if (std::ranges::find(corners, nullptr) != corners.end()) return false;
-    const vec3 across = corners[3]->position - corners[0]->position;
-    const vec3 gap = corners[1]->position + corners[2]->position - corners[0]->position - corners[3]->position;
-    return glm::dot(gap, gap) <= kRoughness * kRoughness * glm::dot(across, across);
+/// Where the stage's blend leaves what is behind: outside of that part of its texture.
+const std::array<TexturePart, TextureParts::kDepths>* partsThatCount(const Stage& stage, const TextureParts& parts) {
+    if (!stage.blended || stage.depthWrite) return nullptr;
+    const BlendFactor source = stage.source, destination = stage.destination;
+    const bool keepsWhereClear = destination == BlendFactor::One || destination == BlendFactor::OneMinusSrcAlpha;
+    if (source == BlendFactor::SrcAlpha && keepsWhereClear) return &parts.withAlpha;
+    const bool keepsWhereBlack = destination == BlendFactor::One || destination == BlendFactor::OneMinusSrcColor;
+    return source == BlendFactor::One && keepsWhereBlack ? &parts.withColor : nullptr;
 }
 
-/// Texels a pixel, the more of the two directions; a large number if it can't be said.
-float texelsPerPixel(const Corners& corners, const vec2& sizeTexels, const TriangleView& view) {
-    constexpr float kMany = 1e9f;
-    std::array<vec2, 4> px;
-    float leastW = kMany, greatestW = 0;
-    for (size_t i = 0; i < 4; ++i) {
-        const vec4 clip = view.clipFromModel * vec4(corners[i]->position, 1.0f);
-        leastW = std::min(leastW, clip.w);
-        greatestW = std::max(greatestW, clip.w);
-        px[i] = vec2(clip) / std::max(clip.w, kNearestW) * 0.5f * view.sizePx;
+/// How a stage moves its texture: texture coordinates are matrix * st + shift.
+struct Motion {
+    glm::mat2 matrix{1.0f};
+    vec2 shift{0.0f};
+    bool moves = false;
+    /// Of lengths, at most.
+    float stretch() const {
+        const float squares = glm::dot(matrix[0], matrix[0]) + glm::dot(matrix[1], matrix[1]);
+        const float area = glm::determinant(matrix);
+        return std::sqrt(0.5f * (squares + std::sqrt(std::max(squares * squares - 4 * area * area, 0.0f))));
     }
-    if (!(leastW >= kNearestW && greatestW <= kMostTilt * leastW)) return kMany;
-    const vec2 s = px[1] - px[0], t = px[2] - px[0];
-    const float area = std::abs(s.x * t.y - s.y * t.x);
-    const float most = std::max(sizeTexels.x * glm::length(t), sizeTexels.y * glm::length(s));
-    return area > 0 ? most / area : kMany;
+};
+
+std::optional<Motion> motionOf(const TextureUnitState& unit) {
+    Motion motion;
+    if (unit.coord != kCoordTexture || unit.modCount > 1) return std::nullopt;
+    if (unit.modCount == 0) return motion;
+    const TexModState& mod = unit.mods[0];
+    if (mod.kind != kModAffine) return std::nullopt;
+    motion.matrix = {mod.matrix.x, mod.matrix.y, mod.matrix.z, mod.matrix.w}; // by columns: of s, of t
+    motion.shift = mod.translate;
+    motion.moves = true;
+    return motion;
+}
+
+/// The part of the square that shows the part of the texture.
+TexturePart moveBack(const TexturePart& part, const Motion& motion) {
+    constexpr float kLeastArea = 1e-6f; // a texture so large shows no border
+    if (std::abs(glm::determinant(motion.matrix)) < kLeastArea) return {};
+    const glm::mat2 back = glm::inverse(motion.matrix);
+    const vec2 middle = back * (part.centre - motion.shift);
+    const vec2 reach(part.radius * glm::length(vec2(back[0].x, back[1].x)),
+                     part.radius * glm::length(vec2(back[0].y, back[1].y)));
+    TexturePart moved{vec2(kManyTexels), vec2(-kManyTexels)};
+    for (const vec2& corner :
+         {part.least, part.greatest, vec2(part.least.x, part.greatest.y), vec2(part.greatest.x, part.least.y)}) {
+        const vec2 st = back * (corner - motion.shift);
+        moved.least = glm::min(moved.least, st);
+        moved.greatest = glm::max(moved.greatest, st);
+    }
+    moved.least = glm::max(glm::max(moved.least, middle - reach), vec2(0.0f));
+    moved.greatest = glm::min(glm::min(moved.greatest, middle + reach), vec2(1.0f));
+    return moved;
 }
 
 } // namespace
@@ -114,33 +174,81 @@ TextureParts findTextureParts(const Texture& texture) {
     TextureParts parts;
     const MipLevel& base = texture.levels.front();
     parts.sizeTexels = vec2(base.width, base.height);
+    parts.clamped = texture.flags.clamp;
     if (base.rgba.empty()) return parts;
-    parts.withAlpha = findPart(texture, [](const uint8_t* texel) { return texel[3] != 0; });
-    parts.withColor = findPart(texture, [](const uint8_t* texel) { return (texel[0] | texel[1] | texel[2]) != 0; });
+    parts.withAlpha = findParts(texture, [](const uint8_t* texel) { return texel[3] != 0; });
+    parts.withColor = findParts(texture, [](const uint8_t* texel) { return (texel[0] | texel[1] | texel[2]) != 0; });
     return parts;
 }
 
-TexturePart findPartShown(const Stage& stage, const StageState& state, const TextureParts& parts) {
-    const TextureUnitState& unit = state.unit[0];
-    const bool once = state.combine == kCombineSingle && unit.coord == kCoordTexture && unit.modCount == 0;
-    if (!once || !stage.blended || stage.depthWrite) return {};
-    const BlendFactor source = stage.source, destination = stage.destination;
-    const bool keepsWhereClear = destination == BlendFactor::One || destination == BlendFactor::OneMinusSrcAlpha;
-    if (source == BlendFactor::SrcAlpha && keepsWhereClear) return parts.withAlpha;
-    const bool keepsWhereBlack = destination == BlendFactor::One || destination == BlendFactor::OneMinusSrcColor;
-    return source == BlendFactor::One && keepsWhereBlack ? parts.withColor : TexturePart{};
+TexturePart findPartShown(const Stage& stage, const StageState& state, const TextureParts& parts,
+                          float texelsPerPixel) {
+    const auto* counting = partsThatCount(stage, parts);
+    const std::optional<Motion> motion = motionOf(state.unit[0]);
+    if (!counting || !motion || state.combine != kCombineSingle) return {};
+    const float texels = texelsPerPixel * motion->stretch();
+    size_t depth = 0;
+    while (depth < TextureParts::kDepths && texels > static_cast<float>(1u << depth))
+        ++depth;
+    if (depth == TextureParts::kDepths) return {};
+    const TexturePart& part = (*counting)[depth];
+    if (!motion->moves) return part;
+    // What a clamped texture has at a side it has beyond it too; another begins anew there.
+    const bool ends = parts.clamped && glm::all(glm::greaterThan(part.least, vec2(0.0f))) &&
+                      glm::all(glm::lessThan(part.greatest, vec2(1.0f)));
+    return ends ? moveBack(part, *motion) : TexturePart{};
 }
 
-void trimSquare(std::span<Vertex, 4> square, const TexturePart& part, const vec2& sizeTexels,
-                const TriangleView& view) {
-    Corners corners;
-    if (!findCorners(square, corners) || texelsPerPixel(corners, sizeTexels, view) > 1.0f) return;
-    const std::array<vec3, 4> p = {corners[0]->position, corners[1]->position, corners[2]->position,
-                                   corners[3]->position};
+EffectSquare::EffectSquare(std::span<const Vertex, 4> square, const TriangleView& view) {
+    std::ranges::copy(square, m_square.begin());
+    m_usable = findCorners() && place(view);
+}
+
+bool EffectSquare::findCorners() {
+    unsigned found = 0;
+    for (size_t i = 0; i < 4; ++i) {
+        const vec2& st = m_square[i].st;
+        if ((st.x != 0 && st.x != 1) || (st.y != 0 && st.y != 1) || m_square[i].color != m_square[0].color)
+            return false;
+        const auto corner = static_cast<size_t>(st.x + 2 * st.y);
+        m_corners[corner] = i;
+        found |= 1u << corner;
+    }
+    if (found != 15u) return false;
+    const auto at = [&](size_t corner) { return m_square[m_corners[corner]].position; };
+    const vec3 across = at(3) - at(0);
+    const vec3 gap = at(1) + at(2) - at(0) - at(3);
+    return glm::dot(gap, gap) <= kRoughness * kRoughness * glm::dot(across, across);
+}
+
+bool EffectSquare::place(const TriangleView& view) {
+    std::array<vec2, 4> px;
+    float leastW = kManyTexels, greatestW = 0;
+    for (size_t i = 0; i < 4; ++i) {
+        const vec4 clip = view.clipFromModel * vec4(m_square[m_corners[i]].position, 1.0f);
+        leastW = std::min(leastW, clip.w);
+        greatestW = std::max(greatestW, clip.w);
+        px[i] = vec2(clip) / std::max(clip.w, kNearestW) * 0.5f * view.sizePx;
+    }
+    m_acrossS = px[1] - px[0];
+    m_acrossT = px[2] - px[0];
+    return leastW >= kNearestW && greatestW <= kMostTilt * leastW;
+}
+
+float EffectSquare::texelsPerPixel(const vec2& sizeTexels) const {
+    const float area = std::abs(m_acrossS.x * m_acrossT.y - m_acrossS.y * m_acrossT.x);
+    const float most = std::max(sizeTexels.x * glm::length(m_acrossT), sizeTexels.y * glm::length(m_acrossS));
+    return area > 0 ? most / area : kManyTexels;
+}
+
+void EffectSquare::write(const TexturePart& part, std::span<Vertex, 4> out) const {
+    const auto at = [&](size_t corner) { return m_square[m_corners[corner]].position; };
     for (size_t i = 0; i < 4; ++i) {
         const vec2 st(i & 1 ? part.greatest.x : part.least.x, i & 2 ? part.greatest.y : part.least.y);
-        corners[i]->st = st;
-        corners[i]->position = glm::mix(glm::mix(p[0], p[1], st.x), glm::mix(p[2], p[3], st.x), st.y);
+        Vertex& vertex = out[m_corners[i]];
+        vertex = m_square[m_corners[i]];
+        vertex.st = st;
+        vertex.position = glm::mix(glm::mix(at(0), at(1), st.x), glm::mix(at(2), at(3), st.x), st.y);
     }
 }
 

@@ -84,6 +84,7 @@ std::optional<VkStencilOpState> stencilState(StencilUse use) {
         VK_STENCIL_OP_KEEP, VK_STENCIL_OP_KEEP, VK_STENCIL_OP_KEEP, VK_COMPARE_OP_ALWAYS, kAll, kAll, 0};
     if (use == StencilUse::CountUp) state.passOp = VK_STENCIL_OP_INCREMENT_AND_CLAMP;
     if (use == StencilUse::CountDown) state.passOp = VK_STENCIL_OP_DECREMENT_AND_CLAMP;
+    if (use == StencilUse::Clear) state.passOp = VK_STENCIL_OP_ZERO;
     if (use == StencilUse::WhereCounted) state.compareOp = VK_COMPARE_OP_NOT_EQUAL;
     return state;
 }
@@ -150,6 +151,13 @@ StateKey overlayKey() {
 StateKey depthKey() {
     StateKey key;
     key.pass = kPassDepth;
+    return key;
+}
+
+StateKey depthClearKey() {
+    StateKey key = depthKey();
+    key.depthFunc = DepthFunc::Always;
+    key.stencil = StencilUse::Clear;
     return key;
 }
 
@@ -266,7 +274,7 @@ const GraphicsPipeline& PipelineSet::find(const StateKey& key) {
 
 std::vector<StateKey> PipelineSet::statesOf(const MaterialLibrary& materials, bool clipped, MaterialId flare,
                                             MaterialId sun, bool mergeStages) const {
-    std::set<StateKey> states = {depthKey(), overlayKey(), shadowShadeKey(), flareTestKey()};
+    std::set<StateKey> states = {depthKey(), depthClearKey(), overlayKey(), shadowShadeKey(), flareTestKey()};
     for (const Stage& stage : materials.get(flare).stages)
         states.insert(flareKey(stage));
     for (const bool clips : {false, true}) {

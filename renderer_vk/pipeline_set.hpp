@@ -9,7 +9,7 @@
 
 namespace q3rt {
 
-enum class StencilUse : uint8_t { None, CountUp, CountDown, WhereCounted };
+enum class StencilUse : uint8_t { None, CountUp, CountDown, WhereCounted, Clear };
 
 struct StateKey {
     bool blended = false;
@@ -37,6 +37,8 @@ StateKey fogKey(bool depthEqual, bool clipped);
 StateKey overlayKey();
 /// Depth alone: what hides other things goes first, so that nothing hidden is shaded.
 StateKey depthKey();
+/// Depth and stencil of all pixels as they were at first.
+StateKey depthClearKey();
 /// Sides of shadow volumes before what is drawn already.
 StateKey shadowVolumeKey(bool up, bool clipped);
 /// Multiplies what lies in a shadow volume.

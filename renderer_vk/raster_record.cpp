@@ -13,13 +13,9 @@ namespace {
 // Weapons keep to the nearest part of the depth range, so that they never reach into walls.
 constexpr float kWeaponDepth = 0.3f;
 
-VkViewport viewportOf(const ViewDraw& view, DepthRange range) {
-    VkViewport viewport{static_cast<float>(view.x),
-                        static_cast<float>(view.y),
-                        static_cast<float>(view.width),
-                        static_cast<float>(view.height),
-                        0.0f,
-                        1.0f};
+VkViewport viewportOf(const ViewDraw& view, DepthRange range, float guardBand) {
+    const vec2 size(view.width, view.height), corner = vec2(view.x, view.y) - 0.5f * (guardBand - 1.0f) * size;
+    VkViewport viewport{corner.x, corner.y, guardBand * size.x, guardBand * size.y, 0.0f, 1.0f};
     if (range == DepthRange::Weapon) viewport.maxDepth = kWeaponDepth;
     if (range == DepthRange::Far) viewport.minDepth = 1.0f;
     if (range == DepthRange::Near) viewport.maxDepth = 0.0f;
@@ -89,13 +85,15 @@ void RasterScene::recordView(PassContext& pass, const ViewDraw& view, VkExtent2D
     constexpr VkImageAspectFlags kDepthStencil = VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
     VkClearAttachment clears[2] = {};
     uint32_t clearCount = 0;
-    if (view.clearDepth) clears[clearCount++] = {kDepthStencil, 0, {.depthStencil = {1.0f, 0}}};
+    if (view.clearDepth && view.depthClear.count == 0)
+        clears[clearCount++] = {kDepthStencil, 0, {.depthStencil = {1.0f, 0}}};
     if (view.clearColor) {
         const float grey = view.clearGrey;
         clears[clearCount++] = {VK_IMAGE_ASPECT_COLOR_BIT, 0, {.color = {.float32 = {grey, grey, grey, 1.0f}}}};
     }
     const VkClearRect area{scissor, 0, 1};
     if (clearCount > 0) vkCmdClearAttachments(pass.commands(), clearCount, clears, 1, &area);
+    recordDepthClear(pass.commands(), view);
     const std::span<const DrawBatch> batches = batchesOf(view);
     const bool nearestFirst = m_depthFirst && !m_showEdges;
     for (const DrawBatch& batch : batches)
@@ -107,6 +105,18 @@ void RasterScene::recordView(PassContext& pass, const ViewDraw& view, VkExtent2D
         if (m_showEdges && batch.own == OwnDraw::None) recordEdges(pass.commands(), view, batch);
     }
     recordFlareTests(pass.commands(), view);
+}
+
+void RasterScene::recordDepthClear(VkCommandBuffer commands, const ViewDraw& view) {
+    if (view.depthClear.count == 0) return;
+    DrawBatch square;
+    square.source = VertexSource::Dynamic;
+    square.firstIndex = view.depthClear.first;
+    square.indexCount = view.depthClear.count;
+    RasterDraw constants{};
+    constants.entity = view.clearEntity;
+    constants.pass = kPassDepth;
+    draw(commands, depthClearKey(), constants, square, false, CullMode::None, view);
 }
 
 std::span<const DrawBatch> RasterScene::batchesOf(const ViewDraw& view) const {
@@ -180,7 +190,14 @@ void RasterScene::recordBatch(VkCommandBuffer commands, const ViewDraw& view, co
         const bool mayBeLeftOut = pass.stageCount == 1 && !batch.erasesShadows;
         if (mayBeLeftOut && changesNothing(first, m_stages->states()[constants.stage])) continue;
         constants.useFog = batch.fog >= 0 && first.fogFade != FogFade::None ? 1 : 0;
-        draw(commands, passKey(material.stages, pass, view.clipped), constants, batch, material.polygonOffset,
+        DrawBatch shown = batch;
+        if (batch.firstStageRange >= 0) {
+            const IndexRange& range = m_data.stageRanges[static_cast<size_t>(batch.firstStageRange) + pass.firstStage];
+            shown.firstIndex = range.first;
+            shown.indexCount = range.count;
+            if (range.count == 0) continue;
+        }
+        draw(commands, passKey(material.stages, pass, view.clipped), constants, shown, material.polygonOffset,
              material.cull, view);
     }
     constants.useFog = 0;
@@ -283,7 +300,7 @@ void RasterScene::draw(VkCommandBuffer commands, const StateKey& key, const Rast
     }
     if (m_bound.range != static_cast<int>(batch.depthRange)) {
         m_bound.range = static_cast<int>(batch.depthRange);
-        const VkViewport viewport = viewportOf(view, batch.depthRange);
+        const VkViewport viewport = viewportOf(view, batch.depthRange, m_guardBand);
         vkCmdSetViewport(commands, 0, 1, &viewport);
     }
     const int cullState = static_cast<int>(cull) * 2 + (view.mirrored ? 1 : 0);

@@ -25,6 +25,24 @@ BufferInfo streamInfo(VkDeviceSize size, VkBufferUsageFlags usage, const char* n
     return {.size = size, .usage = usage, .domain = MemoryDomain::Upload, .name = name};
 }
 
+/// A software driver clips at the viewport's sides, and takes a slow way with all triangles of a draw if one of them is
+/// clipped. In a viewport some times as large as the view few are; the scissor holds pixels inside. A power of two
+/// changes no digit of where a vertex lies.
+float guardBandOf(GpuContext& context, VkExtent2D extent) {
+    constexpr float kMost = 4; // more hardly leaves fewer
+    const Capabilities& can = context.device().capabilities();
+    const auto fits = [&](float guardBand, uint32_t sizePx, uint32_t largest) {
+        const float viewport = guardBand * static_cast<float>(sizePx); // reaches as far beyond one side as the other
+        return viewport <= static_cast<float>(largest) && -viewport >= can.limits.viewportBoundsRange[0] &&
+               viewport <= can.limits.viewportBoundsRange[1];
+    };
+    float guardBand = can.software ? kMost : 1.0f;
+    while (guardBand > 1 && !(fits(guardBand, extent.width, can.limits.maxViewportDimensions[0]) &&
+                              fits(guardBand, extent.height, can.limits.maxViewportDimensions[1])))
+        guardBand /= 2;
+    return guardBand;
+}
+
 void writeTargets(PassBuilder& pass, FrameTargets& targets) {
     targets.color = pass.write(targets.color, access::kColorAttachment);
     targets.depth = pass.write(targets.depth, access::kDepthAttachment);
@@ -60,10 +78,14 @@ RasterScene::RasterScene(GpuContext& context)
           context.device(),
           streamInfo(busyFrame::kStages * sizeof(StageState), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "storage stream"),
           context.ring().framesInFlight())
+    , m_sentStages(context.ring().framesInFlight())
     , m_flareQueries(context.device(), context.ring().framesInFlight())
     , m_askedFlares(context.ring().framesInFlight()) {
-    if (TargetImages* scaled = context.scaledWorld())
+    m_guardBand = guardBandOf(context, context.extent());
+    if (TargetImages* scaled = context.scaledWorld()) {
+        m_guardBand = std::min(m_guardBand, guardBandOf(context, scaled->color.extent()));
         m_upscaler = std::make_unique<Upscaler>(context.device(), *scaled, context.main());
+    }
 }
 
 RasterScene::~RasterScene() = default;
@@ -73,6 +95,7 @@ void RasterScene::setContent(const MaterialLibrary& materials, const ModelLibrar
     m_materials = &materials;
     m_models = &models;
     m_stages = &stages;
+    std::ranges::fill(m_sentStages, SentStages{});
     m_pipelines.setGreyscale(greyscale);
     m_stagePasses.clear();
     m_data.reserve();
@@ -226,12 +249,21 @@ void RasterScene::uploadFrame() {
     const size_t count = table.size() + m_data.ownStages.size();
     m_stageSlice = m_storageStream.reserve(std::max<size_t>(count, 1) * sizeof(StageState), kStorageAlignment);
     auto* stages = reinterpret_cast<StageState*>(m_stageSlice.mapped);
-    std::copy(table.begin(), table.end(), stages);
+    // Those that last lie there since the slot's last frame, if it had them and the buffer is the same.
+    SentStages& sent = m_sentStages[m_context.ring().slot()];
+    if (sent.buffer != m_stageSlice.buffer || m_stageSlice.offset != 0) sent.count = 0;
+    std::copy(table.begin() + static_cast<ptrdiff_t>(sent.count), table.end(), stages + sent.count);
+    sent = {m_stageSlice.buffer, m_stageSlice.offset == 0 ? m_stages->lastingCount() : 0};
     std::copy(m_data.ownStages.begin(), m_data.ownStages.end(), stages + table.size());
     // A set must name a buffer even when nothing is in it.
     if (m_data.entities.empty()) m_data.entities.emplace_back();
     if (m_data.lights.empty()) m_data.lights.emplace_back();
     if (m_data.fogs.empty()) m_data.fogs.emplace_back();
+    // What the viewport has more the view takes less of it.
+    const vec4 part(vec2(1.0f / m_guardBand), 1.0f, 1.0f);
+    for (RasterEntity& entity : m_data.entities)
+        for (int column = 0; column < 4; ++column)
+            entity.clipFromModel[column] *= part;
     m_entitySlice = m_storageStream.append(std::span<const RasterEntity>(m_data.entities), kStorageAlignment);
     m_lightSlice = m_storageStream.append(std::span<const RasterLight>(m_data.lights), kStorageAlignment);
     m_fogSlice = m_storageStream.append(std::span<const RasterFog>(m_data.fogs), kStorageAlignment);

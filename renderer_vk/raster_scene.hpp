@@ -71,6 +71,7 @@ class RasterScene {
   private:
     void recordViews(PassContext& pass, FrameTargets targets, uint32_t firstView, uint32_t viewCount);
     void recordView(PassContext& pass, const ViewDraw& view, VkExtent2D extent);
+    void recordDepthClear(VkCommandBuffer commands, const ViewDraw& view);
     std::span<const DrawBatch> batchesOf(const ViewDraw& view) const;
     DrawBatch depthOf(DrawBatch batch) const;
     bool depthFirstPays(const ViewDraw& view) const;
@@ -115,6 +116,12 @@ class RasterScene {
     };
     std::vector<ViewRun> m_runs; ///< a pass each
     size_t m_graphPasses = 0;    ///< when the last of them had been added
+    /// Stages that a buffer holds already, because they last.
+    struct SentStages {
+        VkBuffer buffer = VK_NULL_HANDLE;
+        size_t count = 0;
+    };
+    std::vector<SentStages> m_sentStages; ///< by slot of the ring
     OcclusionQueries m_flareQueries;
     std::vector<std::vector<FlareKey>> m_askedFlares;  ///< by slot of the ring
     std::vector<std::vector<StagePass>> m_stagePasses; ///< by material, as far as they were asked for
@@ -124,6 +131,7 @@ class RasterScene {
     uint32_t m_edgeStage = 0;     ///< of FrameDrawData::ownStages
     uint32_t m_firstOccluder = 0; ///< where FrameDrawData::occluders begin among the indices on the GPU
     float m_debugSort = 0;
+    float m_guardBand = 1;       ///< the viewport is so many times as wide and as high as the view
     bool m_cullPictures = false; ///< leave out those that no pixel shows
     float m_offsetFactor = -1, m_offsetUnits = -2;
     /// What the command buffer has now, so that equal state is not set again.
