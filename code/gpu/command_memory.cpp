@@ -30,7 +30,7 @@ CommandMemory::CommandMemory() {
 }
 
 void* CommandMemory::allocate(size_t size, size_t alignment) noexcept {
-    if (size == 0) return nullptr;
+    size = std::max<size_t>(size, 1); // drivers take none for a failure, also of nothing
     Header header;
     header.alignment = std::max(alignment, alignof(Header));
     header.offset = (sizeof(Header) + header.alignment - 1) / header.alignment * header.alignment;
@@ -48,7 +48,7 @@ void* CommandMemory::allocate(size_t size, size_t alignment) noexcept {
 void* CommandMemory::reallocate(void* piece, size_t size, size_t alignment) noexcept {
     void* const larger = allocate(size, alignment);
     if (larger && piece) std::memcpy(larger, piece, std::min(size, headerOf(piece).wholeSize - headerOf(piece).offset));
-    if (larger || size == 0) free(piece);
+    if (larger) free(piece);
     return larger;
 }
 
