@@ -46,6 +46,10 @@ void* CommandMemory::allocate(size_t size, size_t alignment) noexcept {
 }
 
 void* CommandMemory::reallocate(void* piece, size_t size, size_t alignment) noexcept {
+    if (size == 0) {
+        free(piece);
+        return nullptr;
+    }
     void* const larger = allocate(size, alignment);
     if (larger && piece) std::memcpy(larger, piece, std::min(size, headerOf(piece).wholeSize - headerOf(piece).offset));
     if (larger) free(piece);
