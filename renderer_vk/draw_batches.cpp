@@ -25,6 +25,15 @@ bool coversWhatIsBehind(const Material& material) {
            first.alphaTest == AlphaTest::None;
 }
 
+/// Those of a surface of the view, whose vertices begin at `base` less the surface's own first.
+void appendSurfaceIndices(ViewWork& work, const EntitySurface& surface, uint32_t base) {
+    std::vector<uint32_t>& out = work.out.indices;
+    const size_t first = out.size();
+    out.resize(first + surface.indexCount);
+    for (uint32_t i = 0; i < surface.indexCount; ++i)
+        out[first + i] = base + work.geometry.indices[surface.firstIndex + i];
+}
+
 StageState boxStage(TextureId texture, float brightness) {
     StageState state{};
     for (TextureUnitState& unit : state.unit)
@@ -129,14 +138,7 @@ LightDraw DrawListBuilder::findLitPart(ViewWork& work, const DrawBatch& batch, c
 
 void DrawListBuilder::appendItemIndices(ViewWork& work, const Item& item) {
     std::vector<uint32_t>& out = work.out.indices;
-    if (!item.fromWorld) {
-        const EntitySurface& surface = work.geometry.surfaces[item.surface];
-        const size_t first = out.size();
-        out.resize(first + surface.indexCount);
-        for (uint32_t i = 0; i < surface.indexCount; ++i)
-            out[first + i] = work.vertexBase + work.geometry.indices[surface.firstIndex + i];
-        return;
-    }
+    if (!item.fromWorld) return appendSurfaceIndices(work, work.geometry.surfaces[item.surface], work.vertexBase);
     const WorldSurface& surface = m_world->surfaces[item.surface];
     if (surface.patch >= 0) {
         appendPatchIndices(surface, m_world->patches[static_cast<size_t>(surface.patch)], work.view,
@@ -296,9 +298,7 @@ bool DrawListBuilder::appendTrimmed(ViewWork& work, const DrawBatch& batch, uint
         return false;
     }
     if (part->empty()) return true;
-    const auto base = static_cast<uint32_t>(work.out.vertices.size()) - 4 - surface.firstVertex;
-    for (uint32_t i = 0; i < surface.indexCount; ++i)
-        work.out.indices.push_back(base + work.geometry.indices[surface.firstIndex + i]);
+    appendSurfaceIndices(work, surface, static_cast<uint32_t>(work.out.vertices.size()) - 4 - surface.firstVertex);
     return true;
 }
 

@@ -29,6 +29,11 @@ CommandMemory::CommandMemory() {
     m_callbacks.pfnFree = [](void* user, void* piece) { static_cast<CommandMemory*>(user)->free(piece); };
 }
 
+/// What the pool does not keep it would take from `m_blocks`, which never gets anything back.
+std::pmr::memory_resource& CommandMemory::resourceFor(size_t bytes) {
+    return bytes > kLargestPooledBytes ? *std::pmr::new_delete_resource() : m_pool;
+}
+
 void* CommandMemory::allocate(size_t size, size_t alignment) noexcept {
     size = std::max<size_t>(size, 1); // drivers take none for a failure, also of nothing
     Header header;
@@ -36,8 +41,8 @@ void* CommandMemory::allocate(size_t size, size_t alignment) noexcept {
     header.offset = (sizeof(Header) + header.alignment - 1) / header.alignment * header.alignment;
     header.wholeSize = header.offset + size;
     try {
-        void* const piece =
-            static_cast<std::byte*>(m_pool.allocate(header.wholeSize, header.alignment)) + header.offset;
+        void* const block = resourceFor(header.wholeSize).allocate(header.wholeSize, header.alignment);
+        void* const piece = static_cast<std::byte*>(block) + header.offset;
         headerOf(piece) = header;
         return piece;
     } catch (const std::bad_alloc&) {
@@ -59,7 +64,8 @@ void* CommandMemory::reallocate(void* piece, size_t size, size_t alignment) noex
 void CommandMemory::free(void* piece) noexcept {
     if (!piece) return;
     const Header header = headerOf(piece);
-    m_pool.deallocate(static_cast<std::byte*>(piece) - header.offset, header.wholeSize, header.alignment);
+    void* const block = static_cast<std::byte*>(piece) - header.offset;
+    resourceFor(header.wholeSize).deallocate(block, header.wholeSize, header.alignment);
 }
 
 } // namespace q3rt

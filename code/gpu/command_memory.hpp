@@ -21,10 +21,14 @@ class CommandMemory {
     void* allocate(size_t size, size_t alignment) noexcept;
     void* reallocate(void* piece, size_t size, size_t alignment) noexcept;
     void free(void* piece) noexcept;
+    std::pmr::memory_resource& resourceFor(size_t bytes);
 
     static constexpr size_t kBusyFrameBytes = size_t{1} << 20; ///< several times what a usual frame records
     std::pmr::monotonic_buffer_resource m_blocks{kBusyFrameBytes};
-    std::pmr::unsynchronized_pool_resource m_pool{&m_blocks};
+    static constexpr size_t kLargestPooledBytes = size_t{1} << 16;
+    std::pmr::unsynchronized_pool_resource m_pool{{.max_blocks_per_chunk = 0, // the library's own
+                                                   .largest_required_pool_block = kLargestPooledBytes},
+                                                  &m_blocks};
     VkAllocationCallbacks m_callbacks{};
 };
 

@@ -134,10 +134,6 @@ void clipPolygon(std::vector<vec3>& polygon, const Plane& plane, std::vector<vec
     polygon.swap(scratch);
 }
 
-} // namespace
-
-namespace {
-
 /// Does the box lie behind one of the planes? Nothing of it is then left: that takes a point kOnPlaneQu before each,
 /// and rounding is far less.
 bool liesBehind(const Bounds& box, std::span<const Plane> planes) {

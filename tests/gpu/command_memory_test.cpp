@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <malloc.h>
 #include <vector>
 
 #include "gpu/command_memory.hpp"
@@ -54,6 +55,20 @@ TEST_F(CommandMemoryTest, APieceGrowsAndShrinksWithWhatItHolds) {
     EXPECT_STREQ(static_cast<const char*>(piece), "abc");
     EXPECT_EQ(reallocate(piece, 0), nullptr);
     free(nullptr);
+}
+
+TEST_F(CommandMemoryTest, NoFrameKeepsMemoryOfTheLast) {
+    const auto heapBytes = [] {
+        const struct mallinfo2 info = mallinfo2();
+        return info.uordblks + info.hblkhd;
+    };
+    for (const size_t size : {size_t{5} << 10, size_t{64} << 10, size_t{1} << 20}) {
+        free(allocate(size));
+        const size_t before = heapBytes();
+        for (int frame = 0; frame < 1000; ++frame)
+            free(allocate(size));
+        EXPECT_LE(heapBytes(), before + size) << size;
+    }
 }
 
 TEST_F(CommandMemoryTest, NoBytesHaveAPlace) {
