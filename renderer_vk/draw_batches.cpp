@@ -26,12 +26,12 @@ bool coversWhatIsBehind(const Material& material) {
 }
 
 /// Those of a surface of the view, whose vertices begin at `base` less the surface's own first.
-void appendSurfaceIndices(ViewWork& work, const EntitySurface& surface, uint32_t base) {
-    std::vector<uint32_t>& out = work.out.indices;
+void appendSurfaceIndices(const ViewGeometry& geometry, const EntitySurface& surface, uint32_t base,
+                          std::vector<uint32_t>& out) {
     const size_t first = out.size();
     out.resize(first + surface.indexCount);
     for (uint32_t i = 0; i < surface.indexCount; ++i)
-        out[first + i] = base + work.geometry.indices[surface.firstIndex + i];
+        out[first + i] = base + geometry.indices[surface.firstIndex + i];
 }
 
 StageState boxStage(TextureId texture, float brightness) {
@@ -138,7 +138,8 @@ LightDraw DrawListBuilder::findLitPart(ViewWork& work, const DrawBatch& batch, c
 
 void DrawListBuilder::appendItemIndices(ViewWork& work, const Item& item) {
     std::vector<uint32_t>& out = work.out.indices;
-    if (!item.fromWorld) return appendSurfaceIndices(work, work.geometry.surfaces[item.surface], work.vertexBase);
+    if (!item.fromWorld)
+        return appendSurfaceIndices(work.geometry, work.geometry.surfaces[item.surface], work.vertexBase, out);
     const WorldSurface& surface = m_world->surfaces[item.surface];
     if (surface.patch >= 0) {
         appendPatchIndices(surface, m_world->patches[static_cast<size_t>(surface.patch)], work.view,
@@ -298,7 +299,8 @@ bool DrawListBuilder::appendTrimmed(ViewWork& work, const DrawBatch& batch, uint
         return false;
     }
     if (part->empty()) return true;
-    appendSurfaceIndices(work, surface, static_cast<uint32_t>(work.out.vertices.size()) - 4 - surface.firstVertex);
+    const auto base = static_cast<uint32_t>(work.out.vertices.size()) - 4 - surface.firstVertex;
+    appendSurfaceIndices(work.geometry, surface, base, work.out.indices);
     return true;
 }
 
