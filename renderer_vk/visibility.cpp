@@ -23,7 +23,7 @@ WorldVisibility::WorldVisibility(const World& world)
     , m_leafParent(world.bsp.leafs.size(), -1)
     , m_nodeMarked(world.bsp.nodes.size())
     , m_leafMarked(world.bsp.leafs.size())
-    , m_surfaceStamp(world.bsp.surfaces.size()) {
+    , m_surfaceVisible(world.bsp.surfaces.size()) {
     for (size_t i = 0; i < world.bsp.nodes.size(); ++i) {
         for (const int child : world.bsp.nodes[i].children) {
             int& parent =
@@ -64,8 +64,8 @@ void WorldVisibility::addLeaf(int index, VisibleWorld& out) {
     for (int i = 0; i < leaf.leafSurfaceCount; ++i) {
         const auto surface =
             static_cast<size_t>(m_world.bsp.leafSurfaces[static_cast<size_t>(leaf.firstLeafSurface + i)]);
-        if (m_surfaceStamp[surface] == m_stamp) continue;
-        m_surfaceStamp[surface] = m_stamp;
+        if (m_surfaceVisible[surface] != 0) continue;
+        m_surfaceVisible[surface] = 1;
         out.surfaces.push_back(static_cast<uint32_t>(surface));
         out.surfaceLeaf.push_back(index);
     }
@@ -99,7 +99,7 @@ void WorldVisibility::findVisible(const RasterView& view, const VisibilitySettin
     out.bounds = Bounds{};
     out.leafCount = 0;
     markLeafs(view, settings);
-    ++m_stamp;
+    std::ranges::fill(m_surfaceVisible, uint8_t{0});
     const unsigned allPlanes = settings.noCull ? 0u : 0xFu;
     walk(m_world.bsp.nodes.empty() ? -1 : 0, view, allPlanes, out);
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "renderer_vk/view_setup.hpp"
@@ -26,6 +27,8 @@ class WorldVisibility {
   public:
     explicit WorldVisibility(const World& world);
     void findVisible(const RasterView& view, const VisibilitySettings& settings, VisibleWorld& out);
+    /// By world surface: was it found? 0 or 1.
+    std::span<const uint8_t> visibleSurfaces() const { return m_surfaceVisible; }
     int cluster() const { return m_cluster; }
 
   private:
@@ -36,8 +39,7 @@ class WorldVisibility {
     const World& m_world;
     std::vector<int> m_nodeParent, m_leafParent;
     std::vector<uint8_t> m_nodeMarked, m_leafMarked;
-    std::vector<uint32_t> m_surfaceStamp;
-    uint32_t m_stamp = 0;
+    std::vector<uint8_t> m_surfaceVisible;
     bool m_marked = false;
     bool m_markedAll = false;
     int m_cluster = -1;

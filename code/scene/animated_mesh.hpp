@@ -45,6 +45,8 @@ class AnimatedMesh {
     virtual size_t surfaceCount() const = 0;
     virtual MeshSurface surface(size_t surface) const = 0;
     virtual size_t vertexCount(size_t surface) const = 0;
+    /// Of the vertices at a pair of frames; empty: not known.
+    virtual Bounds surfaceBox(size_t, const FramePair&) const { return {}; }
     virtual std::span<const uint32_t> indices(size_t surface) const = 0; ///< triangles
     /// Bones at a pair of frames, for appendVertices(); nothing for meshes without bones.
     virtual void pose(const FramePair& frames, std::vector<Affine>& bones) const = 0;

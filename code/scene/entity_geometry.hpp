@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "scene/box_shows.hpp"
 #include "scene/deform.hpp"
 #include "scene/model.hpp"
 #include "scene/scene_types.hpp"
@@ -71,6 +72,9 @@ struct ViewGeometrySettings {
     bool isPortalView = false, mirrored = false;
     /// Mesh models wholly behind one of these planes (normals inward) get a record and no geometry. Empty: none.
     std::span<const Plane> cullPlanes;
+    PictureOfView picture; ///< surfaces of mesh models that no pixel of it shows are left out
+    /// By world surface: 0 where no deformed copy is needed. Empty: all are. Not asked for those of submodels.
+    std::span<const uint8_t> visibleSurfaces;
     Shadows shadows = Shadows::None;
     MaterialId projectionShadow = 0; ///< what Shadows::Projected draws models with once more
     bool deformWorld = true;         ///< append deformed copies of world surfaces whose material has deforms

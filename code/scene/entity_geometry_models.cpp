@@ -87,6 +87,18 @@ void addMeshSurface(const ViewBuild& build, const SceneEntity& entity, const Ani
     closeSurface(build, surface);
 }
 
+/// Left out are only surfaces that nothing else depends on: no shadow, nor what their batch looks like.
+bool mayShow(const ViewBuild& build, const SceneEntity& entity, const AnimatedMesh& mesh, size_t surface,
+             MaterialId material, const FramePair& frames, const mat4& clipFromModel) {
+    const vec2& sizePx = build.settings.picture.sizePx;
+    const bool judged = sizePx.x > 0 && build.settings.shadows != Shadows::Volume &&
+                        build.materials.drawn(material).deforms.empty() &&
+                        !build.materials.get(material).entityMergable && !(entity.flags & entityFlag::kDepthHack);
+    if (!judged) return true;
+    const Bounds box = mesh.surfaceBox(surface, frames);
+    return box.empty() || boxShows(clipFromModel, sizePx, box);
+}
+
 void addMesh(const ViewBuild& build, const SceneEntity& entity, int sceneIndex, const Model& model) {
     const AnimatedMesh& finest = *model.lods[0].mesh;
     FramePair frames{entity.frame, entity.oldFrame, entity.backLerp};
@@ -112,12 +124,14 @@ void addMesh(const ViewBuild& build, const SceneEntity& entity, int sceneIndex, 
     lod.mesh->pose(frames, build.out.bones);
     const bool isSeen =
         build.settings.isPortalView || build.settings.keepHiddenEntities || !(entity.flags & entityFlag::kThirdPerson);
+    const mat4 clipFromModel(glm::dmat4(build.settings.picture.clipFromWorld) *
+                             glm::dmat4(build.out.entities[record].worldFromModel));
     constexpr float kOpaqueSort = 3;
     for (const ModelSurface& source : lod.surfaces) {
         const MaterialId material =
             surfaceMaterial(build.models, source, entity.customShader, entity.customSkin, entity.skinNumber);
         const bool casts = fog == 0 && build.materials.get(material).sort == kOpaqueSort;
-        if (isSeen) {
+        if (isSeen && mayShow(build, entity, *lod.mesh, source.surface, material, frames, clipFromModel)) {
             addMeshSurface(build, entity, *lod.mesh, source, material, record, frames, fog);
             build.out.surfaces.back().castsVolume = casts && build.settings.shadows == Shadows::Volume &&
                                                     !(entity.flags & (entityFlag::kNoShadow | entityFlag::kDepthHack));

@@ -89,7 +89,9 @@ void addDeformedWorld(const ViewBuild& build) {
         for (const uint32_t number : group.surfaces) {
             const auto model = static_cast<size_t>(build.world->surfaces[number].bspModel);
             if (model == 0) {
-                if (build.drawsWorld()) addDeformedSurface(build, number, material, worldContext, 0);
+                const auto visible = build.settings.visibleSurfaces;
+                if (build.drawsWorld() && (visible.empty() || visible[number] != 0))
+                    addDeformedSurface(build, number, material, worldContext, 0);
             } else if (const uint32_t record = build.out.recordOfInlineModel[model]) {
                 addDeformedSurface(build, number, material, contextOfRecord(build, record), record);
             }

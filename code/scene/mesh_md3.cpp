@@ -12,8 +12,7 @@ constexpr uint32_t kWhite = 0xffffffffu; // MD3 carries no colours
 
 class Md3Mesh : public AnimatedMesh {
   public:
-    explicit Md3Mesh(Md3 model)
-        : m_model(std::move(model)) {}
+    explicit Md3Mesh(Md3 model);
 
     size_t frameCount() const override { return m_model.frames.size(); }
     FrameBox frameBox(int frame) const override {
@@ -27,6 +26,7 @@ class Md3Mesh : public AnimatedMesh {
     }
     size_t vertexCount(size_t surface) const override { return m_model.surfaces[surface].vertexCount; }
     std::span<const uint32_t> indices(size_t surface) const override { return m_model.surfaces[surface].indices; }
+    Bounds surfaceBox(size_t surface, const FramePair& frames) const override;
     void pose(const FramePair&, std::vector<Affine>& bones) const override { bones.clear(); }
     void appendVertices(size_t surface, const FramePair& frames, std::span<const Affine> bones,
                         std::vector<Vertex>& out) const override;
@@ -34,7 +34,24 @@ class Md3Mesh : public AnimatedMesh {
   private:
     const Md3Tag* findTag(int frame, std::string_view name) const;
     Md3 m_model;
+    std::vector<std::vector<Bounds>> m_boxes; ///< by surface, by frame; those in the file need not hold the vertices
 };
+
+Md3Mesh::Md3Mesh(Md3 model)
+    : m_model(std::move(model)) {
+    for (const Md3Surface& surface : m_model.surfaces) {
+        std::vector<Bounds>& boxes = m_boxes.emplace_back(m_model.frames.size());
+        for (size_t i = 0; i < surface.vertices.size(); ++i)
+            boxes[i / surface.vertexCount].add(surface.vertices[i].position());
+    }
+}
+
+Bounds Md3Mesh::surfaceBox(size_t surface, const FramePair& frames) const {
+    if (!(frames.backLerp >= 0.0f && frames.backLerp <= 1.0f)) return {}; // beyond both frames
+    Bounds box = m_boxes[surface][static_cast<size_t>(frames.frame)];
+    if (frames.backLerp > 0.0f) box.add(m_boxes[surface][static_cast<size_t>(frames.oldFrame)]);
+    return box;
+}
 
 const Md3Tag* Md3Mesh::findTag(int frame, std::string_view name) const {
     const auto row = static_cast<size_t>(std::clamp(frame, 0, static_cast<int>(m_model.frames.size()) - 1));

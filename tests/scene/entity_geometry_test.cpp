@@ -91,6 +91,34 @@ TEST_F(EntityGeometryTest, ModelsOutsideThePlanesAreNotAnimated) {
     EXPECT_FALSE(build().vertices.empty());
 }
 
+TEST_F(EntityGeometryTest, SurfacesThatNoPixelShowsAreNotAnimated) {
+    // A column for each 100 qu of y at x = 1000, the eye at the origin: columns' middles at y = +-50.
+    mat4& clip = m_settings.picture.clipFromWorld;
+    clip = mat4(0.0f);
+    clip[1][0] = clip[2][1] = 1.0f;
+    clip[0][2] = clip[0][3] = 1.0f;
+    m_settings.picture.sizePx = vec2(20, 20);
+    SceneEntity& entity = add(EntityKind::Model);
+    const auto shownAt = [&](const vec3& origin) {
+        entity.orientation.origin = origin;
+        return !build().vertices.empty();
+    };
+    EXPECT_TRUE(shownAt({1000, 48, 48})) << "over a pixel's middle";
+    EXPECT_FALSE(shownAt({1000, 60, 48})) << "between columns";
+    EXPECT_FALSE(shownAt({1000, 48, 60})) << "between rows";
+    EXPECT_FALSE(shownAt({1000, 1048, 48})) << "beside the picture";
+    EXPECT_TRUE(shownAt({-4, 0, 0})) << "about the eye";
+    entity.flags = entityFlag::kDepthHack;
+    EXPECT_TRUE(shownAt({1000, 60, 48})) << "held in the hand: its place is another";
+    entity.flags = 0;
+    m_settings.shadows = Shadows::Volume;
+    EXPECT_TRUE(shownAt({1000, 60, 48})) << "its shadow may be seen";
+    m_settings.shadows = Shadows::None;
+    entity.frame = 1;
+    entity.backLerp = 1.5f;
+    EXPECT_TRUE(shownAt({1000, 60, 48})) << "beyond both frames";
+}
+
 TEST_F(EntityGeometryTest, ModelIsBlendedBetweenFrames) {
     SceneEntity& entity = add(EntityKind::Model);
     entity.frame = 1;
