@@ -94,7 +94,9 @@ void Device::choosePhysical(const std::string& wanted) {
         m_capabilities = std::move(can);
     }
     if (!found)
-        throw DeviceError(formatText("no Vulkan device is called \"%s\"; there is %s", wanted.c_str(), all.c_str()));
+        throw DeviceError(formatText("no Vulkan device is called \"%s\": name another one with r_device or "
+                                     "Q3RT_DEVICE; there is %s",
+                                     wanted.c_str(), all.c_str()));
     m_choiceReason = !wanted.empty()       ? formatText("asked for as \"%s\"", wanted.c_str())
                      : devices.size() == 1 ? "the only one"
                                            : "the best: one that traces rays in hardware, any GPU, a software device";

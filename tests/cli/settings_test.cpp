@@ -157,6 +157,11 @@ TEST_F(UnknownSetting, OfOurRenderersIsRefusedBeforeTheEngineStarts) {
         expectRefused(command, "rt_taa=2", "rt_taa takes whole numbers from 0 to 1, not '2'");
         expectRefused(command, "rt_preset=nice", "rt_preset takes custom, fast, ");
         EXPECT_FALSE(fs::exists(out));
+    std::vector<std::string> device = view; // whose words only the machine knows
+    device.insert(device.end(), {"--set", "r_device=nosuch"});
+    const ProgramResult none = runQ3rt(device);
+    EXPECT_EQ(none.exitCode, 1);
+    EXPECT_TRUE(none.saysInOneLine("\"nosuch\": name another one with r_device or Q3RT_DEVICE")) << none.errors;
     }
 }
 
