@@ -1,11 +1,13 @@
 // --set: for one run, and only what is there to be set.
 
+#include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <sstream>
 
 #include "bad_input.hpp"
+#include "host/common/session.hpp"
 #include "host/headless/nearest_name.hpp"
 #include "host/packaged/kept_configuration.hpp"
 #include "support/game_data.hpp"
@@ -80,6 +82,14 @@ TEST(PlaySettings, AreOfOneRun) {
     }
 }
 
+TEST(SetOption, OfACvarGivenTwiceTheLastValueCounts) {
+    CLI::App app;
+    CvarList cvars;
+    addSetOption(app, cvars);
+    app.parse("--set rt_taa=1 --set cg_fov=90 --set RT_TAA=0");
+    EXPECT_EQ(cvars, (CvarList{{"cg_fov", "90"}, {"RT_TAA", "0"}}));
+}
+
 TEST(NearestName, IsOneSlipAway) {
     const std::vector<std::string> names = {"r_gamma", "rt_taa", "rt_numRandomDL", "cg_fov"};
     EXPECT_EQ(hintAtNearest("r_gama", names), " (did you mean r_gamma?)");
@@ -127,6 +137,11 @@ TEST_F(UnknownSetting, EndsARunWithoutResults) {
     const ProgramResult result = runQ3rt(axis);
     EXPECT_EQ(result.exitCode, 2) << result.errors;
     EXPECT_NE(result.errors.find("did you mean rt_taa?"), std::string::npos) << result.errors;
+    std::vector<std::string> twice = commands.back();
+    twice.insert(twice.end(), {"--axis", "rt_taa=0", "--axis", "rt_taa=1"});
+    const ProgramResult refused = runQ3rt(twice);
+    EXPECT_EQ(refused.exitCode, 2) << refused.errors;
+    EXPECT_TRUE(refused.saysInOneLine("--axis: rt_taa is given twice")) << refused.errors;
 }
 
 TEST_F(UnknownSetting, OfATextIsRefusedToo) {
@@ -142,6 +157,11 @@ TEST_F(UnknownSetting, OfATextIsRefusedToo) {
     fs::remove(out);
     expectRefused(view, "rt_preset=nice", "rt_preset takes custom, fast, balanced, quality or reference, not 'nice'");
     expectRefused(view, "rt_backend=", "rt_backend takes auto, pipeline, query or compute, not ''");
+    std::vector<std::string> device = view; // whose words only the machine knows
+    device.insert(device.end(), {"--set", "r_device=nosuch"});
+    const ProgramResult none = runQ3rt(device);
+    EXPECT_EQ(none.exitCode, 1);
+    EXPECT_TRUE(none.saysInOneLine("\"nosuch\": name another one with r_device or Q3RT_DEVICE")) << none.errors;
     EXPECT_FALSE(fs::exists(out));
 }
 
@@ -157,11 +177,6 @@ TEST_F(UnknownSetting, OfOurRenderersIsRefusedBeforeTheEngineStarts) {
         expectRefused(command, "rt_taa=2", "rt_taa takes whole numbers from 0 to 1, not '2'");
         expectRefused(command, "rt_preset=nice", "rt_preset takes custom, fast, ");
         EXPECT_FALSE(fs::exists(out));
-    std::vector<std::string> device = view; // whose words only the machine knows
-    device.insert(device.end(), {"--set", "r_device=nosuch"});
-    const ProgramResult none = runQ3rt(device);
-    EXPECT_EQ(none.exitCode, 1);
-    EXPECT_TRUE(none.saysInOneLine("\"nosuch\": name another one with r_device or Q3RT_DEVICE")) << none.errors;
     }
 }
 

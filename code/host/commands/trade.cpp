@@ -80,7 +80,11 @@ std::vector<TradePoint> listPoints(const TradeArguments& a, const TradeSession& 
     for (const TradeAxis& axis : axes)
         if (!isPointAxis(axis.name) && !isDeclared(axis.name))
             throw CLI::ValidationError("--axis " + axis.name, session.complaint(axis.name));
-    return crossAxes(axes, a.size, a.fixed);
+    try {
+        return crossAxes(axes, a.size, a.fixed);
+    } catch (const UsageError& error) {
+        throw CLI::ValidationError("--axis", error.what());
+    }
 }
 
 /// TAA averages places within a pixel: where a point uses it, the reference does so too.

@@ -84,10 +84,11 @@ void addSetOption(CLI::App& command, CvarList& cvars, const char* name, const ch
                     const size_t equals = text.find('=');
                     if (equals == 0 || equals == std::string::npos)
                         throw CLI::ValidationError(name, "'" + text + "' sets nothing: write CVAR=VALUE");
-                    cvars.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-                    if (const std::string complaint = complainOfText(cvars.back().first, cvars.back().second);
-                        !complaint.empty())
+                    const std::string cvar = text.substr(0, equals), value = text.substr(equals + 1);
+                    if (const std::string complaint = complainOfText(cvar, value); !complaint.empty())
                         throw CLI::ValidationError(text, complaint);
+                    std::erase_if(cvars, [&](const auto& earlier) { return equalsIgnoringCase(earlier.first, cvar); });
+                    cvars.emplace_back(cvar, value);
                 }
             },
             meaning)

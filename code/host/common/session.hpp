@@ -32,6 +32,7 @@ void addRendererOption(CLI::App& command, std::string& renderer);
 CLI::Option* addMapOption(CLI::App& command, std::string& map);
 /// `usual` is what the help calls a size that is not given.
 void addSizeOption(CLI::App& command, PictureSize& size, const char* usual = nullptr);
+/// Of a cvar that is given twice the last value counts.
 void addSetOption(CLI::App& command, CvarList& cvars, const char* name = "--set",
                   const char* meaning = "Set a cvar for this run; may be given several times");
 /// From WIDTHxHEIGHT. Throws UsageError.

@@ -116,7 +116,7 @@ std::vector<TradePoint> crossAxes(std::span<const TradeAxis> axes, const Picture
     CvarList taken = fixed;
     for (const TradeAxis& axis : axes) {
         if (holds(taken, axis.name))
-            throw UsageError("--axis " + axis.name + ": the setting is given twice; name it once");
+            throw UsageError(axis.name + " is given twice; name it once");
         taken.emplace_back(axis.name, "");
         std::vector<TradePoint> crossed;
         for (const TradePoint& point : points)
