@@ -6,11 +6,19 @@
 
 namespace q3rt {
 
-/// lights/oa_dm1.ent for maps/oa_dm1.bsp.
-std::string lostLightFile(const World& world);
+struct FoundLights {
+    std::string file; ///< lights/MAP.ent, or that of a map with the same lightmap
+    LostLights lights;
+};
 
-/// The file's lights. None if it isn't there (a hint says how it is made), is damaged or belongs to another bake of the
-/// map: a line says so.
+/// The map's own file, or, where it has none of this bake, the first whose `_lightmap` is its lightmap: a renamed copy
+/// of a map is lit as the map is. Of a file that is damaged, or of another bake and without a twin, a line says so.
+std::optional<FoundLights> findLostLights(FileSource& files, const Bsp& bsp, const std::string& map);
+
+/// The same for a world. If there is none, a line says how it is made.
 std::optional<LostLights> readLostLights(FileSource& files, const World& world);
+
+/// oa_dm1 of maps/oa_dm1.bsp.
+std::string mapName(const World& world);
 
 } // namespace q3rt

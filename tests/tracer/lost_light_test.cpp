@@ -177,7 +177,7 @@ TEST(LostLightFile, SaysWhatIsWrong) {
     TextureLibrary textures(game, {});
     MaterialLibrary materials(game, textures, {});
     const auto world = loadWorld(game, kMap, materials, {});
-    EXPECT_EQ(lostLightFile(*world), kFile);
+    EXPECT_EQ(mapName(*world), "room_square_light");
     std::string said;
     setLogSink([&](LogLevel, std::string_view line) { said = line; });
     EXPECT_FALSE(readLostLights(game, *world));
@@ -193,6 +193,36 @@ TEST(LostLightFile, SaysWhatIsWrong) {
     EXPECT_TRUE(readLostLights(game, *world));
     EXPECT_EQ(said, "");
     setLogSink({});
+}
+
+TEST(LostLightFile, OfATwinServesARenamedMap) {
+    TestGame game;
+    TextureLibrary textures(game, {});
+    MaterialLibrary materials(game, textures, {});
+    const auto world = loadWorld(game, kMap, materials, {});
+    const auto fileOf = [](const std::string& lightmap, int value) {
+        return "{ \"classname\" \"worldspawn\" \"_lightmap\" \"" + lightmap + "\" \"ambient\" \"" +
+               std::to_string(value) + "\" }";
+    };
+    const std::string hash = lightmapFingerprint(world->bsp);
+    game.addText("lights/another.ent", fileOf(hash, 1));
+    game.addText("lights/aaa.ent", "damaged " + hash);
+    const auto ambientFor = [&](const std::string& map) -> float {
+        const auto found = findLostLights(game, world->bsp, map);
+        return found ? found->lights.ambientValue : 0;
+    };
+    EXPECT_EQ(ambientFor("room_square_light"), 1);
+    game.addText("lights/room_square.ent", fileOf(hash, 2));
+    EXPECT_EQ(ambientFor("room_square_light"), 2) << "the nearest name";
+    game.addText(kFile, fileOf("0123", 3));
+    EXPECT_EQ(ambientFor("room_square_light"), 2) << "its own is of another bake";
+    game.addText(kFile, fileOf(hash, 4));
+    EXPECT_EQ(ambientFor("room_square_light"), 4);
+
+    Bsp unlit = world->bsp;
+    unlit.lightmaps.clear();
+    game.addText("lights/none.ent", fileOf(lightmapFingerprint(unlit), 5));
+    EXPECT_FALSE(findLostLights(game, unlit, "unlit")) << "no lightmap is no likeness";
 }
 
 TEST(ModelLight, IsTheGridLessWhatTheLightsGive) {

@@ -15,6 +15,7 @@
 #include "host/common/output_file.hpp"
 #include "host/common/progress.hpp"
 #include "host/packaged/engine_process.hpp"
+#include "scene/lost_light_file.hpp"
 #include "scene/world.hpp"
 #include "tracing_code.hpp"
 
@@ -78,13 +79,22 @@ void checkDemo(Pk3FileSource& files, const DoctorOptions& options, std::vector<C
     }
 }
 
+Check checkLight(Pk3FileSource& files, const World& world) {
+    const std::string map = mapName(world);
+    if (const auto found = findLostLights(files, world.bsp, map))
+        return {"light", Finding::Good, found->file + " has the light that " + map + " lost", ""};
+    return {"light", Finding::Note, "light that " + map + " lost is estimated while it loads",
+            "q3rt relight --map " + map + " recovers it"};
+}
+
 void checkMap(Pk3FileSource& files, const std::string& map, std::vector<Check>& checks) {
     try {
         readMap(files, map);
         TextureLibrary textures(files, TextureSettings{});
         MaterialLibrary materials(files, textures, MaterialSettings{});
-        loadWorld(files, "maps/" + map + ".bsp", materials, WorldSettings{});
+        const auto world = loadWorld(files, "maps/" + map + ".bsp", materials, WorldSettings{});
         checks.push_back({"map", Finding::Good, map + " loads", ""});
+        checks.push_back(checkLight(files, *world));
     } catch (const ContentError& error) {
         checks.push_back({"map", Finding::Problem, error.what(), ""});
     }
@@ -93,6 +103,8 @@ void checkMap(Pk3FileSource& files, const std::string& map, std::vector<Check>& 
 void checkContent(const Installation& found, const DoctorOptions& options, std::vector<Check>& checks) {
     if (found.archives.empty()) return;
     Pk3FileSource files({found.dataBase}, {found.game});
+    for (const fs::path& folder : found.lightFolders)
+        files.addFolder(folder);
     if (!options.demo.empty()) checkDemo(files, options, checks);
     if (!options.map.empty()) checkMap(files, options.map, checks);
 }

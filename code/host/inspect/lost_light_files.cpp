@@ -9,6 +9,7 @@
 #include "host/common/file_bytes.hpp"
 #include "host/common/output_file.hpp"
 #include "host/common/progress.hpp"
+#include "scene/lost_light_file.hpp"
 
 namespace q3rt {
 namespace {
@@ -43,6 +44,14 @@ void writeLights(const fs::path& file, const LostLights& lights, const std::stri
 
 fs::path fileOf(const RelightJob& job) { return job.folder / (job.map + ".ent"); }
 
+void sayIfTwinServes(FileSource& files, const World& world) {
+    const std::string map = mapName(world);
+    const auto found = findLostLights(files, world.bsp, map);
+    if (found && found->file != "lights/" + map + ".ent")
+        logLine(LogLevel::Info, "%s is of a map with the same lightmap and serves %s without a file of its own",
+                found->file.c_str(), map.c_str());
+}
+
 double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 } // namespace
@@ -59,12 +68,7 @@ bool hasLostLights(Pk3FileSource& files, const RelightJob& job) {
 }
 
 void ensureLostLights(Pk3FileSource& files, const GameChoice& game, const std::string& map) {
-    const std::string name = "lights/" + map + ".ent";
-    if (const auto bytes = files.read(name)) {
-        const Bsp bsp = parseBsp(readMap(files, map), "maps/" + map + ".bsp");
-        const auto lights = parseIfCurrent(*bytes, name, lightmapFingerprint(bsp));
-        if (lights && lights->stage == 0) return;
-    }
+    if (findLostLights(files, parseBsp(readMap(files, map), "maps/" + map + ".bsp"), map)) return;
     runRelight(files, {map, lostLightFolder(game), {}});
 }
 
@@ -79,6 +83,7 @@ RelightOutcome runRelight(Pk3FileSource& files, const RelightJob& job) {
     TextureLibrary textures(files, TextureSettings{});
     MaterialLibrary materials(files, textures, MaterialSettings{});
     const auto world = loadWorld(files, name, materials, WorldSettings{});
+    sayIfTwinServes(files, *world);
     const auto start = std::chrono::steady_clock::now();
     const double processorStart = processorSeconds();
 

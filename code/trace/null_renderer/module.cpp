@@ -4,6 +4,7 @@
 #include "engine/export_table.hpp"
 #include "engine/front_end.hpp"
 #include "scene/lights.hpp"
+#include "scene/lost_light_file.hpp"
 #include "trace/null_renderer/null_display.hpp"
 
 namespace q3rt {
@@ -20,9 +21,7 @@ class NullRenderer : public FrontEnd {
     /// Reads what the ray tracer reads beyond what is drawn: light images, and the light that the map lost.
     void onWorldLoaded() override {
         extractLights(*world(), materials());
-        const std::string& map = world()->name; // maps/NAME.bsp
-        const size_t start = map.rfind('/') + 1;
-        engine().read("lights/" + map.substr(start, map.rfind('.') - start) + ".ent");
+        findLostLights(engine(), world()->bsp, mapName(*world()));
     }
     void onFrame(const FrameCommands&, FrameImage* capture) override {
         if (!capture) return;
