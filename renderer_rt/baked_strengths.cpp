@@ -184,13 +184,14 @@ class StrengthFit {
 } // namespace
 
 std::vector<BakedStrength> estimateStrengths(const World& world, const MaterialLibrary& materials,
-                                             const TextureLibrary& textures, const LightSet& lights) {
+                                             const TextureLibrary& textures, const ProbeGeometry& geometry,
+                                             const LightSet& lights) {
     const Kinds kinds = sortLights(world, materials, lights);
     std::vector<Luxel> luxels = sampleLuxels(world, materials, LuxelFaces::Lightmapped, kLuxels, 1);
     if (kinds.names.empty() || luxels.empty()) return {};
     LightAnimation animation(materials, textures);
     const LightTables tables = buildLightTables(world, materials, lights, {}, animation);
-    Columns columns = traceColumns(world, LightProbe(world, materials, tables), kinds, luxels);
+    Columns columns = traceColumns(world, LightProbe(world, geometry, tables), kinds, luxels);
     compareWithinGroups(luxels, kinds.names.size(), columns);
     const StrengthFit fit(columns, kinds.names.size());
     const std::vector<double> factors = fit.solve();

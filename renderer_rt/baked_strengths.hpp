@@ -19,7 +19,8 @@ struct BakedStrength {
 
 /// Of all kinds that the lights are of. Deterministic. The lights stay as they are.
 std::vector<BakedStrength> estimateStrengths(const World& world, const MaterialLibrary& materials,
-                                             const TextureLibrary& textures, const LightSet& lights);
+                                             const TextureLibrary& textures, const ProbeGeometry& geometry,
+                                             const LightSet& lights);
 
 /// Multiplies each light by its kind's factor; what becomes dark is no light any more.
 void applyStrengths(const std::vector<BakedStrength>& strengths, const World& world, const MaterialLibrary& materials,

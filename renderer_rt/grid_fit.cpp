@@ -185,9 +185,9 @@ class GridFit {
 
 } // namespace
 
-std::vector<LuxelLack> findLacks(const World& world, const MaterialLibrary& materials, const LightProbe& probe,
-                                 const vec3& ambient, const vec3& floor) {
-    const double square = double(world.grid.cellSize.x) * world.grid.cellSize.y;
+std::vector<LuxelLack> findLacks(const World& world, const MaterialLibrary& materials, const LightGrid& shape,
+                                 const LightProbe& probe, const vec3& ambient, const vec3& floor) {
+    const double square = double(shape.cellSize.x) * shape.cellSize.y;
     const double wanted = kLuxelsPerCell * luxelAreaQu2(world, materials, LuxelFaces::AllBaked) / square;
     const auto count = static_cast<size_t>(wanted < kMostLuxels ? wanted : kMostLuxels); // not a number: the most
     const std::vector<Luxel> luxels = sampleLuxels(world, materials, LuxelFaces::AllBaked, count, 1);
@@ -209,20 +209,21 @@ std::vector<LuxelLack> findLacks(const World& world, const MaterialLibrary& mate
     return lacks;
 }
 
-void openCells(const World& world, std::vector<GridCell>& grid, const std::vector<LuxelLack>& lacks) {
+void openCells(const World& world, const LightGrid& shape, std::vector<GridCell>& grid,
+               const std::vector<LuxelLack>& lacks) {
     std::vector<bool> mayOpen(grid.size());
     for (size_t i = 0; i < grid.size(); ++i)
-        mayOpen[i] = grid[i].surfaces.valid || world.clusterOf(pointOf(world.grid, i)) >= 0;
+        mayOpen[i] = grid[i].surfaces.valid || world.clusterOf(pointOf(shape, i)) >= 0;
     const std::vector<bool> isOpen = mayOpen;
     for (const LuxelLack& lack : lacks) {
-        if (!mixAt(world.grid, lack, [&](uint32_t cell) { return isOpen[cell]; }).isBehind) continue;
-        const CellMix around = mixAt(world.grid, lack, [](uint32_t) { return true; });
+        if (!mixAt(shape, lack, [&](uint32_t cell) { return isOpen[cell]; }).isBehind) continue;
+        const CellMix around = mixAt(shape, lack, [](uint32_t) { return true; });
         for (uint32_t k = 0; k < around.count; ++k)
             mayOpen[around.cell[k]] = true;
     }
     std::vector<float> weight(grid.size(), 0), sunSeen(grid.size(), 0);
     for (const LuxelLack& lack : lacks) {
-        const CellMix mix = mixAt(world.grid, lack, [&](uint32_t cell) { return mayOpen[cell]; });
+        const CellMix mix = mixAt(shape, lack, [&](uint32_t cell) { return mayOpen[cell]; });
         for (uint32_t k = 0; k < mix.count; ++k) {
             weight[mix.cell[k]] += mix.weight[k];
             sunSeen[mix.cell[k]] += mix.weight[k] * lack.sunSeen;
@@ -244,12 +245,17 @@ void fitGrid(const LightGrid& shape, std::vector<GridCell>& grid, const std::vec
 }
 
 void explainGrid(const World& world, const MaterialLibrary& materials, const LightProbe& probe, const LightSet& lights,
-                 std::vector<GridCell>& grid) {
-    const std::vector<ProbeWays> explained = explainGrid(probe, world.grid, grid);
-    const std::vector<LuxelLack> lacks = findLacks(world, materials, probe, lights.ambient, lights.floor);
-    openCells(world, grid, lacks);
-    fitGrid(world.grid, grid, lacks);
+                 LightTables& tables) {
+    const LightGrid& shape = tables.gridShape;
+    std::vector<GridCell>& grid = tables.grid;
+    const std::vector<ProbeWays> explained = explainGrid(probe, shape, grid);
+    const std::vector<LuxelLack> lacks = findLacks(world, materials, shape, probe, lights.ambient, lights.floor);
+    openCells(world, shape, grid, lacks);
+    fitGrid(shape, grid, lacks);
     raiseGrid(grid, explained, lights.ambient, lights.floor);
+    if (!world.grid.empty()) return;
+    for (GridCell& cell : grid)
+        cell.models = cell.surfaces; // all that is known
 }
 
 vec3 lightOfGrid(const LightGrid& shape, const std::vector<GridCell>& grid, const LuxelLack& luxel) {

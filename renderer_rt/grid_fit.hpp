@@ -19,12 +19,13 @@ struct LuxelLack {
 
 /// At points evenly over the lightmapped faces. `ambient`, light that is everywhere, counts as lights do; and each
 /// luxel should have `floor` at least.
-std::vector<LuxelLack> findLacks(const World& world, const MaterialLibrary& materials, const LightProbe& probe,
-                                 const vec3& ambient, const vec3& floor);
+std::vector<LuxelLack> findLacks(const World& world, const MaterialLibrary& materials, const LightGrid& shape,
+                                 const LightProbe& probe, const vec3& ambient, const vec3& floor);
 
 /// Cells that the map left dark become cells of surfaces where luxels may take light from them: all that stand in open
 /// space, and those in walls around luxels that have no other before them.
-void openCells(const World& world, std::vector<GridCell>& grid, const std::vector<LuxelLack>& lacks);
+void openCells(const World& world, const LightGrid& shape, std::vector<GridCell>& grid,
+               const std::vector<LuxelLack>& lacks);
 
 /// What the cells of surfaces give becomes what best gives all luxels what they lack, by least squares, nothing below
 /// 0; so no light counts twice, and the light of a room that shares cells with the next one is what suits both. Cells
@@ -32,9 +33,10 @@ void openCells(const World& world, std::vector<GridCell>& grid, const std::vecto
 /// light is darkened as all cells are on the mean. `shape`: of the map's grid.
 void fitGrid(const LightGrid& shape, std::vector<GridCell>& grid, const std::vector<LuxelLack>& lacks);
 
-/// All of it, in order: what the lights of `probe` explain (grid_light.hpp), what luxels lack, and what is everywhere.
+/// All of it on the grid of `tables`, in order: what the lights of `probe` explain (grid_light.hpp), what luxels lack,
+/// and what is everywhere.
 void explainGrid(const World& world, const MaterialLibrary& materials, const LightProbe& probe, const LightSet& lights,
-                 std::vector<GridCell>& grid);
+                 LightTables& tables);
 
 /// What the cells give a luxel, as the shaders mix them (shaders/rt/grid.glsl), luxel units.
 vec3 lightOfGrid(const LightGrid& shape, const std::vector<GridCell>& grid, const LuxelLack& luxel);

@@ -90,10 +90,8 @@ vec3 LightProbe::Flux::takenBy(const vec3& normal) const {
     return isFaint(given, faintest) ? vec3(0.0f) : share * given;
 }
 
-LightProbe::LightProbe(const World& world, const MaterialLibrary& materials, const LightTables& tables)
-    : m_world(world)
-    , m_tables(tables)
-    , m_farQu(2.0f * glm::length(world.bounds.maxs - world.bounds.mins)) {
+ProbeGeometry::ProbeGeometry(const World& world, const MaterialLibrary& materials)
+    : m_farQu(2.0f * glm::length(world.bounds.maxs - world.bounds.mins)) {
     std::vector<vec3> positions;
     std::vector<uint8_t> opaque;
     const BspModel& model = world.bsp.models.front();
@@ -110,6 +108,11 @@ LightProbe::LightProbe(const World& world, const MaterialLibrary& materials, con
     }
     m_tracer = std::make_unique<CpuTracer>(positions, opaque);
     m_tracer->accept = [this](uint32_t triangle, const vec2& at) { return numberOf(at) < m_cover[triangle]; };
+}
+
+bool ProbeGeometry::seesSky(const vec3& point, const vec3& direction) const {
+    CpuHit hit;
+    return m_tracer->closest(point, direction, 0.0f, m_farQu, hit) && m_isSky[hit.triangle];
 }
 
 const RtLightRow& LightProbe::rowAt(const vec3& point) const {
@@ -152,7 +155,7 @@ void LightProbe::lookByKind(const vec3& point, const vec3& normal, const Kinds& 
     const size_t firstSun = m_tables.triangles.size() + m_tables.points.size();
     for (size_t s = 0; s < m_tables.others.size() && row.seesSky != 0; ++s) {
         const RtLight& sun = m_tables.others[s];
-        if (dot(normal, sun.position) > 0.0f && seesSun(point, sun))
+        if (dot(normal, sun.position) > 0.0f && m_geometry.seesSky(point, sun.position))
             irradiance[kinds.ofLight[firstSun + s]] += Flux{.way = sun.position, .across = sun.power}.takenBy(normal);
     }
 }
@@ -161,7 +164,7 @@ LightProbe::Flux LightProbe::traceSample(const vec3& point, uint32_t light, floa
     Flux flux = light < m_tables.triangles.size()
                     ? lookAtTriangle(m_tables.triangles[light], point, u, v)
                     : lookAtPoint(m_tables.points[light - m_tables.triangles.size()], point);
-    if (flux.share != 0.0f && (isFaint(flux.across, flux.faintest) || m_tracer->occluded(point, flux.way, 1.0f)))
+    if (flux.share != 0.0f && (isFaint(flux.across, flux.faintest) || !m_geometry.isFree(point, flux.way)))
         flux.share = 0.0f;
     return flux;
 }
@@ -180,16 +183,11 @@ void LightProbe::addRow(const vec3& point, const RtLightRow& row, const ProbeWay
     }
 }
 
-bool LightProbe::seesSun(const vec3& point, const RtLight& sun) const {
-    CpuHit hit;
-    return m_tracer->closest(point, sun.position, 0.0f, m_farQu, hit) && m_isSky[hit.triangle];
-}
-
 void LightProbe::addSuns(const vec3& point, const ProbeWays& ways, Seen& seen) const {
     float all = 0, arrived = 0;
     for (const RtLight& sun : m_tables.others) {
         all += lightWeight(sun.power);
-        if (!seesSun(point, sun)) continue;
+        if (!m_geometry.seesSky(point, sun.position)) continue;
         arrived += lightWeight(sun.power);
         addFlux({.way = sun.position, .across = sun.power}, ways, seen.irradiance);
     }

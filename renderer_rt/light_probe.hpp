@@ -14,12 +14,33 @@ namespace q3rt {
 /// By direction: an axis, the opposite one, four across.
 using ProbeWays = std::array<vec3, 6>;
 
-/// The map and the tables must outlive it; rows, nodes and lights of the tables must stay as they are.
+/// What of a map stops the probes' rays. The same for all lights.
+class ProbeGeometry {
+  public:
+    ProbeGeometry(const World& world, const MaterialLibrary& materials);
+    ProbeGeometry(const ProbeGeometry&) = delete;
+    ProbeGeometry& operator=(const ProbeGeometry&) = delete;
+    /// Nothing between a point and the end of the way from it.
+    bool isFree(const vec3& point, const vec3& way) const { return !m_tracer->occluded(point, way, 1.0f); }
+    bool seesSky(const vec3& point, const vec3& direction) const;
+
+  private:
+    std::unique_ptr<CpuTracer> m_tracer;
+    // By triangle of the tracer.
+    std::vector<char> m_isSky;
+    std::vector<float> m_cover; ///< share of it that stops light
+    float m_farQu;
+};
+
+/// All that it is made of must outlive it; rows, nodes and lights of the tables must stay as they are.
 class LightProbe {
   public:
     struct Flux;
 
-    LightProbe(const World& world, const MaterialLibrary& materials, const LightTables& tables);
+    LightProbe(const World& world, const ProbeGeometry& geometry, const LightTables& tables)
+        : m_world(world)
+        , m_geometry(geometry)
+        , m_tables(tables) {}
 
     struct Seen {
         ProbeWays irradiance{}; ///< of surfaces that face the ways, luxel units
@@ -45,16 +66,11 @@ class LightProbe {
     Flux traceSample(const vec3& point, uint32_t light, float u, float v) const;
     void addRow(const vec3& point, const RtLightRow& row, const ProbeWays& ways, uint32_t rayCount,
                 std::mt19937& random, ProbeWays& sum) const;
-    bool seesSun(const vec3& point, const RtLight& sun) const;
     void addSuns(const vec3& point, const ProbeWays& ways, Seen& seen) const;
 
     const World& m_world;
+    const ProbeGeometry& m_geometry;
     const LightTables& m_tables;
-    std::unique_ptr<CpuTracer> m_tracer;
-    // By triangle of the tracer.
-    std::vector<char> m_isSky;
-    std::vector<float> m_cover; ///< share of it that stops light
-    float m_farQu;
 };
 
 } // namespace q3rt

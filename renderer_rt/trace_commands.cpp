@@ -10,10 +10,9 @@
 #include "formats/image.hpp"
 #include "gpu/device.hpp"
 #include "gpu/readback.hpp"
-#include "renderer_rt/baked_strengths.hpp"
 #include "renderer_rt/calibration.hpp"
+#include "renderer_rt/prepared_lights.hpp"
 #include "renderer_rt/trace_renderer.hpp"
-#include "scene/lost_light_file.hpp"
 
 namespace q3rt {
 
@@ -51,30 +50,21 @@ ModelLightScale TraceRenderer::modelLightScale() const {
     return {scales.ambientScale, scales.directedScale};
 }
 
-void TraceRenderer::loadLights() {
-    m_lights = extractLights(*world(), materials());
+PreparedLights TraceRenderer::loadLights() {
     m_lostLights = m_settings.rt_lostLights;
     m_modelLightScale = modelLightScale();
     m_reloadLights = false;
-    if (m_lostLights == 0) return;
-    if (const auto lost = readLostLights(engine(), *world())) {
-        applyLostLights(*lost, *world(), materials(), m_lights);
-        return;
-    }
-    const std::vector<BakedStrength> strengths = estimateStrengths(*world(), materials(), textures(), m_lights);
-    const auto changed = std::ranges::count_if(strengths, [](const BakedStrength& of) { return of.factor != 1; });
-    if (changed > 0)
-        logLine(LogLevel::Info, "%zd of %zu kinds of light are not in the lightmap as the scripts have them: adjusted",
-                changed, strengths.size());
-    applyStrengths(strengths, *world(), materials(), m_lights);
+    return prepareLights(engine(), *world(), materials(), textures(),
+                         m_lostLights != 0 ? LightSource::RecoveredOrEstimated : LightSource::Scripts,
+                         m_modelLightScale);
 }
 
 void TraceRenderer::followLights() {
     const bool changed = m_lostLights != m_settings.rt_lostLights || m_modelLightScale != modelLightScale();
     if (!m_scene->hasWorld() || (!m_reloadLights && !changed)) return;
-    loadLights();
+    const PreparedLights lights = loadLights();
     context().device().waitIdle();
-    m_scene->loadLights(m_lights, m_modelLightScale);
+    m_scene->loadLights(lights);
     m_buffers.clear(); // what was seen in other light
     m_lastBuffers = nullptr;
 }

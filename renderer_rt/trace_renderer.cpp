@@ -51,12 +51,12 @@ void TraceRenderer::useBackend(Backend backend) {
 
 void TraceRenderer::loadScene(TracedScene& scene) {
     scene.setContent(materials(), textures());
-    scene.loadWorld(*world(), m_lights, m_modelLightScale);
+    scene.loadWorld(*world(), *m_preparedLights);
 }
 
 void TraceRenderer::onGpuWorldLoaded() {
     registerOverlayFont();
-    loadLights();
+    m_preparedLights.emplace(loadLights());
     loadScene(*m_scene);
     m_frameNumber = 0;
     const StaticGeometry& statics = *m_scene->statics();
@@ -70,6 +70,7 @@ void TraceRenderer::onGpuReady() {
     if (!m_scene->hasWorld()) return;
     m_pace.applyPreset(m_settings);
     if (!m_calibrationKey.empty()) calibrate();
+    m_preparedLights.reset();
     if (m_settings.rt_illumination == kPlainIllumination) m_pipelines->requirePlain(context().device());
     warmPipelines();
     // Whatever was drawn while the map was loaded, the first picture of the world is the same.

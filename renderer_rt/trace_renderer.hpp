@@ -82,7 +82,7 @@ class TraceRenderer final : public GpuRenderer {
     void addCommands();
     void removeCommands();
     /// The map's lights, with its file of lost ones if they are wanted.
-    void loadLights();
+    PreparedLights loadLights();
     ModelLightScale modelLightScale() const;
     /// rt_reloadLights, and changes of rt_lostLights and of the light grid's scales.
     void followLights();
@@ -109,9 +109,10 @@ class TraceRenderer final : public GpuRenderer {
     ViewGeometry m_geometry;
     ViewBuffers* m_lastBuffers = nullptr;
     bool m_commandsAdded = false;
-    LightSet m_lights;
-    int m_lostLights = 0; ///< rt_lostLights of these
+    // Of the lights that are loaded:
+    int m_lostLights = 0; ///< rt_lostLights
     ModelLightScale m_modelLightScale;
+    std::optional<PreparedLights> m_preparedLights; ///< while the map is loaded: back ends may be compared
     bool m_reloadLights = false;
     std::string m_calibrationKey; ///< not empty: the back end is to be measured when a map is there
     std::string m_backendReason;

@@ -40,17 +40,16 @@ void TracedScene::setContent(const MaterialLibrary& materials, const TextureLibr
     m_models = std::make_unique<ModelGeometry>(m_context.device(), m_backend);
 }
 
-void TracedScene::loadWorld(const World& world, const LightSet& lights, const ModelLightScale& scale) {
+void TracedScene::loadWorld(const World& world, const PreparedLights& lights) {
     m_world = &world;
     Device& device = m_context.device();
     m_statics =
         std::make_unique<StaticGeometry>(device, m_context.uploader(), world, m_builder->materials(), m_backend);
-    loadLights(lights, scale);
+    loadLights(lights);
 }
 
-void TracedScene::loadLights(const LightSet& lights, const ModelLightScale& scale) {
-    m_lights = std::make_unique<WorldLights>(m_context.device(), m_context.uploader(), *m_world, m_builder->materials(),
-                                             lights, scale, m_stages->textures());
+void TracedScene::loadLights(const PreparedLights& lights) {
+    m_lights = std::make_unique<WorldLights>(m_context.device(), m_context.uploader(), *m_world, lights);
 }
 
 void TracedScene::dropContent() {

@@ -29,9 +29,9 @@ class TracedScene {
   public:
     TracedScene(GpuContext& context, Backend backend);
     void setContent(const MaterialLibrary& materials, const TextureLibrary& textures);
-    void loadWorld(const World& world, const LightSet& lights, const ModelLightScale& scale);
+    void loadWorld(const World& world, const PreparedLights& lights);
     /// Other lights for the same world. The device is idle.
-    void loadLights(const LightSet& lights, const ModelLightScale& scale);
+    void loadLights(const PreparedLights& lights);
     void dropContent();
     bool hasWorld() const { return m_statics != nullptr; }
 

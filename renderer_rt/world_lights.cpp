@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "gpu/device.hpp"
-#include "renderer_rt/grid_fit.hpp"
-#include "renderer_rt/grid_light.hpp"
 #include "renderer_rt/node_starts.hpp"
 #include "renderer_rt/packed_grid.hpp"
 #include "shaders/shared/constants.h"
@@ -68,7 +66,13 @@ std::vector<RtNode> makeNodes(const World& world) {
 
 std::vector<GridCell> makeGrid(const World& world, const ModelLightScale& scale) {
     std::vector<GridCell> cells;
-    if (world.grid.empty()) return cells;
+    if (world.grid.empty()) {
+        const ivec3 counts = gridShapeOf(world).counts;
+        const GridCell dark{.direction = vec3(0, 0, 1)};
+        cells.assign(static_cast<size_t>(counts.x) * static_cast<size_t>(counts.y) * static_cast<size_t>(counts.z),
+                     dark);
+        return cells;
+    }
     // As it was baked: a brightened one has lost what did not fit its bytes.
     const LightGrid grid = LightGrid::build(world.bsp, world.grid.cellSize, 0);
     for (int z = 0; z < grid.counts.z; ++z)
@@ -108,6 +112,29 @@ RtLight makeSun(const SunLight& sun) {
 }
 
 } // namespace
+
+LightGrid gridShapeOf(const World& world) {
+    constexpr double kMostCells = 1 << 20; // as the luxels that tell what they give (grid_fit.cpp)
+    LightGrid shape;
+    shape.cellSize = world.grid.cellSize;
+    if (!world.grid.empty()) {
+        shape.origin = world.grid.origin;
+        shape.counts = world.grid.counts;
+        return shape;
+    }
+    const float extent = world.bounds.empty() ? 0 : glm::length(world.bounds.maxs - world.bounds.mins);
+    const bool isUsable = extent > 0 && std::isfinite(extent);
+    const vec3 size = isUsable ? world.bounds.maxs - world.bounds.mins : vec3(0);
+    const auto cellCount = [&] {
+        const dvec3 counts = glm::ceil(dvec3(size) / dvec3(shape.cellSize)) + 1.0;
+        return counts.x * counts.y * counts.z;
+    };
+    while (cellCount() > kMostCells)
+        shape.cellSize *= 2.0f;
+    shape.origin = isUsable ? world.bounds.mins : vec3(0);
+    shape.counts = ivec3(glm::ceil(size / shape.cellSize)) + 1;
+    return shape;
+}
 
 RtLight makeDynamicLight(const vec3& origin, float radiusQu, const vec3& color) {
     return {.position = origin,
@@ -162,6 +189,7 @@ LightTables buildLightTables(const World& world, const MaterialLibrary& material
         tables.rows.rows[r].seesSky = cluster >= seesSky.size() || seesSky[cluster] ? 1 : 0;
     }
     tables.nodes = makeNodes(world);
+    tables.gridShape = gridShapeOf(world);
     tables.grid = makeGrid(world, scale);
     return tables;
 }
@@ -186,14 +214,10 @@ TriangleLight deformLight(const TriangleLight& light, const ViewGeometry& geomet
     return moved;
 }
 
-WorldLights::WorldLights(Device& device, Uploader& uploader, const World& world, const MaterialLibrary& materials,
-                         const LightSet& lights, const ModelLightScale& scale, const TextureLibrary& textures)
-    : m_animation(materials, textures) {
-    LightTables tables = buildLightTables(world, materials, lights, scale, m_animation);
-    if (!tables.grid.empty()) {
-        const LightProbe probe(world, materials, tables);
-        explainGrid(world, materials, probe, lights, tables.grid);
-    }
+WorldLights::WorldLights(Device& device, Uploader& uploader, const World& world, const PreparedLights& prepared)
+    : m_animation(prepared.animation) {
+    const LightSet& lights = prepared.lights;
+    const LightTables& tables = prepared.tables;
     m_others = tables.others;
     for (size_t i = 0; i < lights.triangles.size(); ++i) {
         const TriangleLight& light = lights.triangles[i];
@@ -218,9 +242,9 @@ WorldLights::WorldLights(Device& device, Uploader& uploader, const World& world,
     m_pointCount = tables.points.size();
     m_rowEntryCount = tables.rows.entries.size();
     m_clusterCount = static_cast<uint32_t>(world.bsp.clusterCount);
-    m_gridOrigin = world.grid.origin;
-    m_gridCellSize = world.grid.cellSize;
-    m_gridCounts = world.grid.empty() ? ivec3(0) : world.grid.counts;
+    m_gridOrigin = tables.gridShape.origin;
+    m_gridCellSize = tables.gridShape.cellSize;
+    m_gridCounts = tables.gridShape.counts;
     uploader.flush();
 }
 
@@ -267,7 +291,7 @@ void WorldLights::describe(RtFrame& frame) const {
     frame.gridOrigin = m_gridOrigin;
     frame.gridCellSize = m_gridCellSize;
     frame.gridCounts = m_gridCounts;
-    if (m_gridCounts.x > 0) frame.flags |= kFrameGrid;
+    frame.flags |= kFrameGrid;
 }
 
 } // namespace q3rt

@@ -35,8 +35,13 @@ struct LightTables {
     std::vector<RtLight> others;            ///< suns, in no row; a frame's dynamic lights follow them
     LightRows rows;
     std::vector<RtNode> nodes;
+    LightGrid gridShape; ///< where the cells of `grid` stand; has none itself
     std::vector<GridCell> grid;
 };
+/// The shape of the map's light grid. Of a map without one that can be used: one over all that is drawn, for what
+/// luxels lack.
+LightGrid gridShapeOf(const World& world);
+
 /// Of the light grid on models: r_ambientScale, r_directedScale.
 struct ModelLightScale {
     float ambient = 0.6f, directed = 1;
@@ -59,10 +64,16 @@ TriangleLight moveLight(const TriangleLight& light, const mat4& worldFromModel);
 /// A light on its surface as the view has it, deformed: what glows is what is seen, and what stops rays to others.
 TriangleLight deformLight(const TriangleLight& light, const ViewGeometry& geometry, const EntitySurface& surface);
 
+/// All that is made of a map's lights before it is uploaded (prepared_lights.hpp).
+struct PreparedLights {
+    LightSet lights;
+    LightAnimation animation;
+    LightTables tables;
+};
+
 class WorldLights {
   public:
-    WorldLights(Device& device, Uploader& uploader, const World& world, const MaterialLibrary& materials,
-                const LightSet& lights, const ModelLightScale& scale, const TextureLibrary& textures);
+    WorldLights(Device& device, Uploader& uploader, const World& world, const PreparedLights& prepared);
     /// Fills the frame's light addresses and counts, all but those of `lights` (see others()).
     void describe(RtFrame& frame) const;
     /// All triangle lights, those of movers and deformed surfaces where the view has them; empty if all are where

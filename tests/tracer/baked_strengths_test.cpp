@@ -15,7 +15,7 @@ constexpr const char* kMap = "maps/room_square_light.bsp";
 class BakedStrengths : public testing::Test {
   protected:
     float factorOf(const LightSet& lights, const std::string& name) {
-        for (const BakedStrength& strength : estimateStrengths(*world, materials, textures, lights))
+        for (const BakedStrength& strength : estimateStrengths(*world, materials, textures, geometry, lights))
             if (strength.name == name) return strength.factor;
         return -1;
     }
@@ -28,6 +28,7 @@ class BakedStrengths : public testing::Test {
     TextureLibrary textures{game, {}};
     MaterialLibrary materials{game, textures, {}};
     const std::unique_ptr<const World> world = loadWorld(game, kMap, materials, {});
+    const ProbeGeometry geometry{*world, materials};
     LightSet asTheScriptSays = extractLights(*world, materials);
 };
 
@@ -44,7 +45,7 @@ TEST_F(BakedStrengths, FollowsTheLightmap) {
 TEST_F(BakedStrengths, WhatTheBakeHadNotIsDark) {
     LightSet more = asTheScriptSays;
     more.points.push_back({.origin = 0.3f * world->bounds.mins + 0.7f * world->bounds.maxs, .intensity = vec3(1e6f)});
-    const auto strengths = estimateStrengths(*world, materials, textures, more);
+    const auto strengths = estimateStrengths(*world, materials, textures, geometry, more);
     applyStrengths(strengths, *world, materials, more);
     EXPECT_TRUE(more.points.empty());
     EXPECT_EQ(more.triangles.size(), asTheScriptSays.triangles.size());
@@ -52,7 +53,7 @@ TEST_F(BakedStrengths, WhatTheBakeHadNotIsDark) {
 }
 
 TEST_F(BakedStrengths, NothingToJudgeIsNothingToDo) {
-    EXPECT_TRUE(estimateStrengths(*world, materials, textures, {}).empty());
+    EXPECT_TRUE(estimateStrengths(*world, materials, textures, geometry, {}).empty());
     LightSet none;
     applyStrengths({{"textures/none", 0}}, *world, materials, none);
     EXPECT_TRUE(none.triangles.empty());

@@ -113,13 +113,14 @@ TEST(OpenCells, EveryLuxelFindsLight) {
     LightTables tables = buildLightTables(*world, materials, {}, {}, animation);
     for (GridCell& cell : tables.grid)
         cell.surfaces.valid = false;
-    const LightProbe probe(*world, materials, tables);
-    std::vector<LuxelLack> lacks = findLacks(*world, materials, probe, vec3(0), vec3(0));
+    const ProbeGeometry geometry(*world, materials);
+    const LightProbe probe(*world, geometry, tables);
+    std::vector<LuxelLack> lacks = findLacks(*world, materials, tables.gridShape, probe, vec3(0), vec3(0));
     ASSERT_GT(lacks.size(), 100u);
     for (LuxelLack& lack : lacks)
         lack.light = vec3(50);
     std::vector<GridCell> open = tables.grid;
-    openCells(*world, open, lacks);
+    openCells(*world, world->grid, open, lacks);
     for (size_t i = 0; i < open.size(); ++i)
         EXPECT_EQ(open[i].models.valid, tables.grid[i].models.valid) << "to models the map's grid is all that is known";
     fitGrid(world->grid, open, lacks);
@@ -133,10 +134,10 @@ TEST(OpenCells, EveryLuxelFindsLight) {
     const vec3 last = world->grid.origin + world->grid.cellSize * vec3(world->grid.counts - 1);
     const vec3 outside = last + 0.5f * world->grid.cellSize;
     open = tables.grid;
-    openCells(*world, open, {{.position = outside, .normal = kUp, .light = vec3(50), .isOpen = true}});
+    openCells(*world, world->grid, open, {{.position = outside, .normal = kUp, .light = vec3(50), .isOpen = true}});
     const auto count = std::count_if(open.begin(), open.end(), [](const GridCell& c) { return c.surfaces.valid; });
     EXPECT_EQ(count, 1) << "the grid's last";
-    openCells(*world, open, {});
+    openCells(*world, world->grid, open, {});
     EXPECT_EQ(count, std::count_if(open.begin(), open.end(), [](const GridCell& c) { return c.surfaces.valid; }));
 }
 

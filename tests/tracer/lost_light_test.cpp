@@ -152,9 +152,10 @@ TEST_F(LostLightTest, TheFloorArrives) {
     EXPECT_NEAR(radiance(), radianceOf(baked), 0.03 * radianceOf(baked)) << "it is light enough";
 }
 
+constexpr size_t kGridLump = 8 + 8 * 15; // of the header: offset and length
+
 TEST_F(LostLightTest, WhatTheGridLacksLuxelsTell) {
     std::vector<std::byte> map = *m_game.read(kMap);
-    constexpr size_t kGridLump = 8 + 8 * 15; // of the header: offset and length
     int32_t grid[2];
     std::memcpy(grid, &map[kGridLump], sizeof grid);
     std::fill_n(map.begin() + grid[0], grid[1], std::byte{0});
@@ -163,6 +164,17 @@ TEST_F(LostLightTest, WhatTheGridLacksLuxelsTell) {
     start("1");
     m_harness->set("rt_ambient", "1");
     EXPECT_NEAR(radiance(), radianceOfEmitter(), 0.03 * radianceOfEmitter());
+}
+
+TEST_F(LostLightTest, LuxelsTellOfAMapWithoutAGrid) {
+    std::vector<std::byte> map = *m_game.read(kMap);
+    const int32_t none[2] = {};
+    std::memcpy(&map[kGridLump], none, sizeof none);
+    m_game.add(kMap, map);
+    m_game.addText(kFile, lightText(0));
+    start("1");
+    m_harness->set("rt_ambient", "1");
+    EXPECT_NEAR(radiance(), radianceOfEmitter(), 0.1 * radianceOfEmitter()) << "cells of 64 units";
 }
 
 TEST_F(LostLightTest, DamagedItIsLeftOut) {
@@ -235,7 +247,8 @@ TEST(ModelLight, IsTheGridLessWhatTheLightsGive) {
     for (const LightSet& lights : {LightSet{}, extractLights(*world, materials)}) {
         LightTables tables = buildLightTables(*world, materials, lights, scale, animation);
         const std::vector<GridCell> baked = tables.grid;
-        const LightProbe probe(*world, materials, tables);
+        const ProbeGeometry geometry(*world, materials);
+        const LightProbe probe(*world, geometry, tables);
         const std::vector<ProbeWays> given = explainGrid(probe, world->grid, tables.grid);
         std::vector<LuxelLack> nothing;
         for (const Vertex& vertex : world->vertices)
