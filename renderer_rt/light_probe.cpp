@@ -160,10 +160,19 @@ void LightProbe::lookByKind(const vec3& point, const vec3& normal, const Kinds& 
     }
 }
 
+LightProbe::Flux LightProbe::lookAt(const vec3& point, uint32_t light, float u, float v) const {
+    return light < m_tables.triangles.size() ? lookAtTriangle(m_tables.triangles[light], point, u, v)
+                                             : lookAtPoint(m_tables.points[light - m_tables.triangles.size()], point);
+}
+
+LightProbe::Arrival LightProbe::sample(const vec3& point, const vec3& normal, uint32_t light, float u, float v) const {
+    const Flux flux = lookAt(point, light, u, v);
+    const float given = lightWeight(flux.takenBy(normal));
+    return {given, given > 0.0f && m_geometry.isFree(point, flux.way) ? given : 0.0f};
+}
+
 LightProbe::Flux LightProbe::traceSample(const vec3& point, uint32_t light, float u, float v) const {
-    Flux flux = light < m_tables.triangles.size()
-                    ? lookAtTriangle(m_tables.triangles[light], point, u, v)
-                    : lookAtPoint(m_tables.points[light - m_tables.triangles.size()], point);
+    Flux flux = lookAt(point, light, u, v);
     if (flux.share != 0.0f && (isFaint(flux.across, flux.faintest) || !m_geometry.isFree(point, flux.way)))
         flux.share = 0.0f;
     return flux;

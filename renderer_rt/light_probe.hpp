@@ -32,7 +32,7 @@ class ProbeGeometry {
     float m_farQu;
 };
 
-/// All that it is made of must outlive it; rows, nodes and lights of the tables must stay as they are.
+/// All that it is made of must outlive it; which rows, nodes and lights the tables have must stay.
 class LightProbe {
   public:
     struct Flux;
@@ -60,9 +60,18 @@ class LightProbe {
     void lookByKind(const vec3& point, const vec3& normal, const Kinds& kinds, uint32_t rayCount, std::mt19937& random,
                     std::span<vec3> irradiance) const;
 
+    /// What one sample of a light of the rows gives to a surface, luxel units, sum of the channels.
+    struct Arrival {
+        float given = 0;   ///< if nothing were in the way
+        float arrives = 0; ///< `given`, or nothing
+    };
+    Arrival sample(const vec3& point, const vec3& normal, uint32_t light, float u, float v) const;
+
   private:
     const RtLightRow& rowAt(const vec3& point) const;
-    /// Of one sample of a light; its share is 0 if something is in the way.
+    /// Of one sample of a light, as if nothing were in the way.
+    Flux lookAt(const vec3& point, uint32_t light, float u, float v) const;
+    /// The same; its share is 0 if something is.
     Flux traceSample(const vec3& point, uint32_t light, float u, float v) const;
     void addRow(const vec3& point, const RtLightRow& row, const ProbeWays& ways, uint32_t rayCount,
                 std::mt19937& random, ProbeWays& sum) const;

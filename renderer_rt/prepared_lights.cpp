@@ -5,6 +5,7 @@
 #include "base/log.hpp"
 #include "renderer_rt/baked_strengths.hpp"
 #include "renderer_rt/grid_fit.hpp"
+#include "renderer_rt/row_sight.hpp"
 #include "scene/lost_light_file.hpp"
 
 namespace q3rt {
@@ -33,7 +34,9 @@ PreparedLights prepareLights(FileSource& files, const World& world, const Materi
             adjustStrengths(world, materials, textures, geometry, out.lights);
     }
     out.tables = buildLightTables(world, materials, out.lights, scale, out.animation);
-    explainGrid(world, materials, LightProbe(world, geometry, out.tables), out.lights, out.tables);
+    const LightProbe probe(world, geometry, out.tables);
+    lookFromRows(probe, out.tables.rows);
+    explainGrid(world, materials, probe, out.lights, out.tables);
     return out;
 }
 

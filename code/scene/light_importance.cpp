@@ -9,6 +9,7 @@
 namespace q3rt {
 namespace {
 
+using glm::unpackUnorm2x16;
 #include "shaders/lib/light_row.glsl"
 
 /// Points that stand for a row; more of them change little.
@@ -20,15 +21,15 @@ constexpr double kBoundShare = 0.125, kEqualShare = 0.015625;
 /// Weighted reservoir: the k points of largest u^(1 / area) (Efraimidis and Spirakis 2006).
 class PointPicker {
   public:
-    void offer(const vec3& point, double area, double uniform, size_t limit) {
+    void offer(const RowPoint& point, double area, double uniform, size_t limit) {
         m_kept.push_back({std::log(uniform) / area, point});
         std::push_heap(m_kept.begin(), m_kept.end(), isWorse);
         if (m_kept.size() <= limit) return;
         std::pop_heap(m_kept.begin(), m_kept.end(), isWorse);
         m_kept.pop_back();
     }
-    std::vector<vec3> points() const {
-        std::vector<vec3> result;
+    std::vector<RowPoint> points() const {
+        std::vector<RowPoint> result;
         for (const Kept& kept : m_kept)
             result.push_back(kept.point);
         return result;
@@ -37,7 +38,7 @@ class PointPicker {
   private:
     struct Kept {
         double key;
-        vec3 point;
+        RowPoint point;
     };
     static bool isWorse(const Kept& a, const Kept& b) { return a.key > b.key; } // the heap's front is the worst
     std::vector<Kept> m_kept;
@@ -58,11 +59,12 @@ class SurfaceSampler {
         const vec3 facing = glm::cross(corner[2] - corner[0], corner[1] - corner[0]);
         if (!(glm::dot(facing, facing) > 0.0f)) return;
         const uint front = normalClass(facing);
+        const vec3 normal = glm::normalize(facing);
         visitLeafs(m_world.bsp, {corner, corner + 3}, 0.0f, [&](const BspLeaf& leaf, const Polygon& part) {
             if (leaf.cluster >= 0 && leaf.cluster < m_world.bsp.clusterCount)
-                addPart(static_cast<size_t>(leaf.cluster), part, front);
+                addPart(static_cast<size_t>(leaf.cluster), part, normal, front);
         });
-        addPart(m_points.size() - 1, {corner, corner + 3}, 0);
+        addPart(m_points.size() - 1, {corner, corner + 3}, normal, 0);
     }
 
     std::vector<ClusterPoints> finish() {
@@ -73,7 +75,7 @@ class SurfaceSampler {
     }
 
   private:
-    void addPart(size_t cluster, const Polygon& part, uint front) {
+    void addPart(size_t cluster, const Polygon& part, const vec3& normal, uint front) {
         const size_t limit = cluster + 1 == m_points.size() ? kPointsOfWorld : kPointsOfRow;
         for (size_t i = 2; i < part.size(); ++i) {
             const vec3 edge1 = part[i - 1] - part[0], edge2 = part[i] - part[0];
@@ -81,13 +83,14 @@ class SurfaceSampler {
             if (!(area > 0)) continue;
             const float root = std::sqrt(number()), v = number();
             const vec3 point = part[0] + edge1 * (root * (1.0f - v)) + edge2 * (root * v);
-            m_pickers[cluster].pickers[0].offer(point, area, m_uniform(m_random), limit);
+            m_pickers[cluster].pickers[0].offer({point, normal}, area, m_uniform(m_random), limit);
             m_points[cluster][0].area += area;
             // A surface may be seen, and lit, from both sides.
             for (const uint side : {front, front == 0 ? 0 : ((front - 1) ^ 1u) + 1}) {
                 if (side == 0) continue;
                 RowPoints& of = m_points[cluster][side];
-                m_pickers[cluster].pickers[side].offer(point, area, m_uniform(m_random), limit);
+                m_pickers[cluster].pickers[side].offer({point, side == front ? normal : -normal}, area,
+                                                       m_uniform(m_random), limit);
                 of.area += area;
                 for (const vec3& corner : part)
                     of.plane = std::min(of.plane, alongClass(side, corner));
@@ -185,8 +188,8 @@ std::vector<double> weighLights(std::span<const RowLight> lights, std::span<cons
     for (size_t i = 0; i < list.size(); ++i) {
         const RowLight& light = lights[list[i]];
         bounds[i] = static_cast<double>(bound(light, region.box));
-        for (const vec3& point : region.points->points)
-            means[i] += static_cast<double>(estimate(light, point, region.normalClass));
+        for (const RowPoint& point : region.points->points)
+            means[i] += static_cast<double>(estimate(light, point.position, region.normalClass));
     }
     addNormalised(weights, means, 1 - kBoundShare);
     addNormalised(weights, bounds, kBoundShare);

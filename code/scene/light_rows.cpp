@@ -12,6 +12,9 @@
 namespace q3rt {
 namespace {
 
+using glm::unpackUnorm2x16;
+#include "shaders/lib/light_row.glsl"
+
 /// A light this near to a dividing plane counts as on both sides: map compilers move vertices by up to this much.
 constexpr float kPlaneSlackQu = 0.125f;
 constexpr float kNeverReached = std::numeric_limits<float>::max();
@@ -88,6 +91,8 @@ class RowBuilder {
         return out;
     }
 
+    std::vector<ClusterPoints> takePoints() { return std::move(m_points); }
+
     ClusterRows buildOutside() const {
         constexpr float kInfinity = std::numeric_limits<float>::infinity();
         ClusterRows out;
@@ -122,20 +127,16 @@ class RowBuilder {
         row.first = static_cast<uint>(out.entries.size());
         row.facing = static_cast<uint>(list.size());
         row.plane = region.points->plane;
-        if (!list.empty()) addEntries(out.entries, list, weighLights(m_lights, list, region));
+        for (const uint32_t light : list)
+            out.entries.push_back({light, 0, 0, 0});
+        if (!list.empty())
+            setOdds(std::span(out.entries).last(list.size()), weighLights(m_lights, list, region),
+                    std::vector<float>(list.size(), 1.0f));
         // Only the row of all normals is asked for the others.
         if (region.normalClass == 0)
             for (const uint32_t light : rest)
                 out.entries.push_back({light, 0, 0, 0});
         row.count = static_cast<uint>(out.entries.size()) - row.first;
-    }
-
-    static void addEntries(std::vector<RtLightEntry>& entries, const std::vector<uint32_t>& list,
-                           const std::vector<double>& weights) {
-        const std::vector<AliasColumn> columns = buildAliasTable(weights);
-        const std::vector<double> probability = aliasProbabilities(columns);
-        for (size_t i = 0; i < list.size(); ++i)
-            entries.push_back({list[i], columns[i].chance, columns[i].other, static_cast<float>(1 / probability[i])});
     }
 
     const Bsp& m_bsp;
@@ -158,11 +159,33 @@ void append(LightRows& rows, const ClusterRows& cluster, size_t rowCount) {
 
 } // namespace
 
+void setOdds(std::span<RtLightEntry> entries, const std::vector<double>& weights, std::span<const float> seen) {
+    std::vector<AliasColumn> columns = buildAliasTable(weights);
+    for (size_t i = 0; i < entries.size(); ++i) {
+        // Rounded to none, a light that no other column has could not be chosen.
+        entries[i].odds = glm::packUnorm2x16(vec2(std::max(columns[i].chance, 1.0f / 65535), seen[i]));
+        entries[i].other = columns[i].other;
+        columns[i].chance = chanceOf(entries[i]);
+    }
+    const std::vector<double> probability = aliasProbabilities(columns);
+    for (size_t i = 0; i < entries.size(); ++i)
+        entries[i].weight = static_cast<float>(1 / probability[i]);
+}
+
+void followSight(LightRows& rows, const RtLightRow& row, std::span<const float> seen) {
+    const auto entries = std::span(rows.entries).subspan(row.first, row.facing);
+    if (entries.empty()) return;
+    std::vector<double> weights;
+    for (size_t i = 0; i < entries.size(); ++i)
+        weights.push_back(static_cast<double>(seen[i]) / static_cast<double>(entries[i].weight));
+    setOdds(entries, weights, seen);
+}
+
 DrawnLight drawLight(const LightRows& rows, const RtLightRow& row, uint32_t bits) {
     const uint64_t product = uint64_t{bits} * row.facing;
     const RtLightEntry* entry = &rows.entries[row.first + static_cast<uint32_t>(product >> 32)];
     const auto rest = static_cast<uint32_t>(product);
-    if (static_cast<float>(rest >> 8) * 0x1p-24f >= entry->chance) entry = &rows.entries[row.first + entry->other];
+    if (static_cast<float>(rest >> 8) * 0x1p-24f >= chanceOf(*entry)) entry = &rows.entries[row.first + entry->other];
     return {entry->light, entry->weight};
 }
 
@@ -195,7 +218,7 @@ std::vector<RowLight> describeRowLights(std::span<const TriangleLight> triangles
 }
 
 LightRows buildLightRows(const World& world, const MaterialLibrary& materials, std::span<const RowLight> lights) {
-    const RowBuilder builder(world, materials, lights);
+    RowBuilder builder(world, materials, lights);
     std::vector<ClusterRows> clusters(builder.clusterCount());
     const size_t threadCount = std::max(1u, std::thread::hardware_concurrency());
     std::vector<std::thread> threads;
@@ -210,6 +233,7 @@ LightRows buildLightRows(const World& world, const MaterialLibrary& materials, s
     for (const ClusterRows& cluster : clusters)
         append(rows, cluster, kNormalClassCount);
     append(rows, builder.buildOutside(), 1);
+    rows.points = builder.takePoints();
     return rows;
 }
 

@@ -3,6 +3,7 @@
 // A light is only left out of a row where it gives exactly nothing: triangles are clipped through the BSP, so that all
 // clusters that they touch are known, not just those of their corners.
 
+#include <array>
 #include <limits>
 #include <span>
 #include <vector>
@@ -26,9 +27,22 @@ struct RowLight {
 /// Triangle lights, then point lights: the numbers that entries have.
 std::vector<RowLight> describeRowLights(std::span<const TriangleLight> triangles, std::span<const PointLight> points);
 
+struct RowPoint {
+    vec3 position{0}; ///< on a surface
+    vec3 normal{0};   ///< unit, of the side that is the class's; in class 0 the front
+};
+/// The lit surfaces of one cluster, or of one class of them.
+struct RowPoints {
+    std::vector<RowPoint> points;                    ///< a few, by area
+    float plane = std::numeric_limits<float>::max(); ///< class 1 and up: the least distance along the normal
+    double area = 0;
+};
+using ClusterPoints = std::array<RowPoints, kNormalClassCount>;
+
 struct LightRows {
     std::vector<RtLightRow> rows; ///< as shaders/shared/rt_lights.h numbers them
     std::vector<RtLightEntry> entries;
+    std::vector<ClusterPoints> points; ///< by cluster; behind the last one, in class 0, the whole world
 
     const RtLightRow& ofCluster(size_t cluster) const { return rows[cluster * kNormalClassCount]; }
     const RtLightRow& outside() const { return rows.back(); }
@@ -40,6 +54,9 @@ struct DrawnLight {
     float weight = 0;
 };
 DrawnLight drawLight(const LightRows& rows, const RtLightRow& row, uint32_t bits);
+
+/// The row's facing lights are chosen in proportion to `seen` too from here on, one for each, (0, 1].
+void followSight(LightRows& rows, const RtLightRow& row, std::span<const float> seen);
 
 /// The same map and lights give the same table, whatever the number of threads.
 LightRows buildLightRows(const World& world, const MaterialLibrary& materials, std::span<const RowLight> lights);

@@ -1,20 +1,11 @@
 #pragma once
 // The parts of buildLightRows.
 
-#include <array>
-
 #include "scene/bsp_clip.hpp"
 #include "scene/light_rows.hpp"
 
 namespace q3rt {
 
-/// Points of the lit surfaces of one cluster, or of one class of them.
-struct RowPoints {
-    std::vector<vec3> points;                        ///< a few, by area
-    float plane = std::numeric_limits<float>::max(); ///< class 1 and up: the least distance along the normal
-    double area = 0;
-};
-using ClusterPoints = std::array<RowPoints, kNormalClassCount>;
 /// By cluster; behind the last one the whole world.
 std::vector<ClusterPoints> pickClusterPoints(const World& world, const MaterialLibrary& materials);
 
@@ -32,5 +23,9 @@ bool shinesToward(const RowLight& light, const RowRegion& region);
 /// with a share by a bound of what it may give at any point of the region's box, and a little for every light.
 std::vector<double> weighLights(std::span<const RowLight> lights, std::span<const uint32_t> list,
                                 const RowRegion& region);
+
+/// Sets odds, columns and weights of a row's facing entries for choosing them in proportion to `weights`, one each.
+/// `seen` likewise: seenOf().
+void setOdds(std::span<RtLightEntry> entries, const std::vector<double>& weights, std::span<const float> seen);
 
 } // namespace q3rt

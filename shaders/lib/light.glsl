@@ -176,12 +176,6 @@ LightChoice considerWeighted(LightChoice choice, LightSample candidate, float we
     return choice;
 }
 
-// A candidate that was drawn at random brings its weight in its irradiance.
-LightChoice considerLight(LightChoice choice, LightSample candidate)
-{
-    return considerWeighted(choice, candidate, lightWeight(candidate.irradiance));
-}
-
 // The kept sample, divided by the probability of keeping it.
 LightSample chosenSample(LightChoice choice)
 {

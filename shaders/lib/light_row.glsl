@@ -1,4 +1,4 @@
-// The classes of a light row's points (shared/rt_lights.h).
+// The classes of a light row's points, and what its entries hold (shared/rt_lights.h).
 #ifndef Q3RT_LIB_LIGHT_ROW_GLSL
 #define Q3RT_LIB_LIGHT_ROW_GLSL
 #include "shared/rt_lights.h"
@@ -21,5 +21,11 @@ float alongClass(uint which, vec3 p)
     float along = which < 3u ? p.x : which < 5u ? p.y : p.z;
     return (which & 1u) != 0u ? along : -along;
 }
+
+// That a drawn column gives its own light; else it is that of its column `other`.
+float chanceOf(RtLightEntry entry) { return unpackUnorm2x16(entry.odds).x; }
+
+// About how much of a light arrives at the row's points, (0, 1]: guides the choice, decides nothing.
+float seenOf(RtLightEntry entry) { return unpackUnorm2x16(entry.odds).y; }
 
 #endif

@@ -56,7 +56,7 @@ LightChoice considerLights(LightChoice choice, ShadingPoint point, float sunChan
         LightSample lit = sampleRowLight(drawn.light, point, random.xy);
         lit.light = drawn.light;
         lit.irradiance *= drawn.weight / float(count);
-        choice = considerLight(choice, lit);
+        choice = considerWeighted(choice, lit, lightWeight(lit.irradiance) * drawn.seen);
     }
     uint first = rtFrame.triangleLightCount + rtFrame.pointLightCount;
     for (uint i = 0u; i < rtFrame.lightCount; ++i) {

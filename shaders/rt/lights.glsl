@@ -79,15 +79,16 @@ RtLightRow lightRowOf(vec3 point, vec3 normal)
 struct DrawnLight {
     uint light;
     float weight;
+    float seen; // seenOf()
 };
 DrawnLight drawLight(RtLightRow row, uint bits)
 {
     uint column, rest;
     umulExtended(bits, row.facing, column, rest);
     RtLightEntry entry = loadLightEntry(rtFrame.lightEntries, row.first + column);
-    if (unitFloat(rest) >= entry.chance)
+    if (unitFloat(rest) >= chanceOf(entry))
         entry = loadLightEntry(rtFrame.lightEntries, row.first + entry.other);
-    return DrawnLight(entry.light, entry.weight);
+    return DrawnLight(entry.light, entry.weight, seenOf(entry));
 }
 
 struct ShadingPoint {

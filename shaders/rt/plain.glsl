@@ -42,11 +42,11 @@ DrawnLight plainCandidate(RtLightRow row, uint bits, uint i)
 {
     if (i < kPlainDrawn) {
         DrawnLight drawn = drawLight(row, bits + i * (0xffffffffu / kPlainDrawn));
-        return DrawnLight(drawn.light, drawn.weight / float(kPlainDrawn));
+        return DrawnLight(drawn.light, drawn.weight / float(kPlainDrawn), drawn.seen);
     }
     uint other, rest;
     umulExtended(bits, rtFrame.lightCount, other, rest);
-    return DrawnLight(rowLightCount() + other, float(rtFrame.lightCount));
+    return DrawnLight(rowLightCount() + other, float(rtFrame.lightCount), 1.0);
 }
 
 // A light that is not a triangle.

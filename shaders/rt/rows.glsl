@@ -135,7 +135,7 @@ RtLightRow loadLightRow(SHARED_ADDRESS rows, uint index)
 RtLightEntry loadLightEntry(SHARED_ADDRESS entries, uint index)
 {
     uvec4 row = RowTable(entries).at[index];
-    return RtLightEntry(row.x, uintBitsToFloat(row.y), row.z, uintBitsToFloat(row.w));
+    return RtLightEntry(row.x, row.y, row.z, uintBitsToFloat(row.w));
 }
 
 const uint kNodeRows = 2u;

@@ -55,9 +55,9 @@ struct RtLightRow {
 
 // A light of a row, and a column of the row's alias table over the facing ones.
 struct RtLightEntry {
-    uint light;   // < triangleLightCount: a triangle light, else a point light
-    float chance; // that a drawn column gives its own light; else that of column `other`
-    uint other;
+    uint light; // < triangleLightCount: a triangle light, else a point light
+    uint odds;  // packUnorm2x16(): chanceOf(), seenOf()
+    uint other; // column
     float weight; // 1 / probability of this light
 };
 

@@ -28,7 +28,7 @@ glm::dvec3 sumOfChoices(const std::vector<vec3>& irradiances) {
             if (i > kept && weights[i] > 0) probability *= 1 - weights[i] / running;
             shader::LightSample candidate = shader::darkSample(vec3(static_cast<float>(i)));
             candidate.irradiance = irradiances[i];
-            choice = shader::considerLight(choice, candidate);
+            choice = shader::considerWeighted(choice, candidate, shader::lightWeight(candidate.irradiance));
         }
         total += probability;
         // Rarer than the numbers are fine: chance can't choose it.
@@ -65,7 +65,7 @@ TEST(LightChoice, WeightedSumOfChoicesIsTheSumOfAllLights) {
 TEST(LightChoice, NothingToChooseGivesNothing) {
     EXPECT_EQ(shader::chosenSample(shader::beginChoice(0.0f)).irradiance, vec3(0.0f));
     const shader::LightSample dark = shader::darkSample(vec3(1.0f));
-    EXPECT_EQ(shader::considerLight(shader::beginChoice(0.0f), dark).weight, 0.0f);
+    EXPECT_EQ(shader::considerWeighted(shader::beginChoice(0.0f), dark, 0.0f).weight, 0.0f);
 }
 
 } // namespace

@@ -154,7 +154,7 @@ TEST(LightChoices, GiveEveryLightItsShare) {
             sample.direction = vec3(static_cast<float>(i));
             exactSum += double(sample.irradiance.x);
             // Random number 0 must choose whatever gives light, however little.
-            choice = shader::considerLight(choice, sample);
+            choice = shader::considerWeighted(choice, sample, shader::lightWeight(sample.irradiance));
             if (choice.kept.direction.x != static_cast<float>(i)) ++neverChosen;
             runningError = std::max(runningError, std::abs(double(choice.weightSum) / exactSum - 1));
         }
@@ -178,9 +178,9 @@ TEST(LightChoices, FaintLightsAreTooBrightByNoMoreThanTheirNumbersStep) {
         uint32_t low = 0, high = 1u << 24; // the lowest number that does not choose it
         while (low < high) {
             const uint32_t middle = (low + high) / 2;
-            const auto first =
-                shader::considerLight(shader::beginChoice(static_cast<float>(middle) * 0x1p-24f), strong);
-            const auto chosen = shader::considerLight(first, faint);
+            const auto first = shader::considerWeighted(shader::beginChoice(static_cast<float>(middle) * 0x1p-24f),
+                                                        strong, shader::lightWeight(strong.irradiance));
+            const auto chosen = shader::considerWeighted(first, faint, shader::lightWeight(faint.irradiance));
             if (chosen.weight == share)
                 low = middle + 1;
             else

@@ -94,10 +94,12 @@ RtLightRow rowOfPixel(DirectInputs& inputs, const RtPixel& pixel) {
     return lightRowOf(offsetOrigin(pixel.position, pixel.error, pixel.geometricNormal), pixel.normal);
 }
 
+float chanceOfColumn(const RtLightEntry& entry) { return chanceOf(entry); }
+
 Drawn drawFromRow(DirectInputs& inputs, const RtLightRow& row, uint bits) {
     inputsOfRun = &inputs;
     const DrawnLight drawn = drawLight(row, bits);
-    return {drawn.light, drawn.weight};
+    return {drawn.light, drawn.weight, drawn.seen};
 }
 
 size_t keptCandidate(const std::vector<double>& weights, float random) {

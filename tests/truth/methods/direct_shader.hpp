@@ -29,7 +29,9 @@ RtLightRow rowOfPixel(DirectInputs& inputs, const RtPixel& pixel);
 struct Drawn {
     uint light;
     float weight;
+    float seen;
 };
+float chanceOfColumn(const RtLightEntry& entry);
 Drawn drawFromRow(DirectInputs& inputs, const RtLightRow& row, uint bits);
 
 /// Which of the candidates with these weights is kept by a random number.

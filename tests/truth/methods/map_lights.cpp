@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <random>
 
+#include "renderer_rt/row_sight.hpp"
 #include "renderer_rt/surface_class.hpp"
 
 namespace q3rt::test {
@@ -24,6 +25,7 @@ MapLights::MapLights(FileSource& files, const std::string& map)
     const LightSet lights = extractLights(*m_world, m_materials);
     LightAnimation animation(m_materials, m_textures);
     m_tables = buildLightTables(*m_world, m_materials, lights, {}, animation);
+    lookFromRows(LightProbe(*m_world, ProbeGeometry(*m_world, m_materials), m_tables), m_tables.rows);
     m_colors = animation.evaluate(0);
     const BspModel& model = m_world->bsp.models[0];
     std::vector<vec3> positions;

@@ -155,7 +155,7 @@ vec3 PointMethods::runAlone(uint light, bool shadowed) {
     prepare(0, 0);
     m_shadowed = shadowed;
     const uint count = light < m_rowLightCount ? 1 : 0;
-    const RtLightEntry entry{light, 1, 0, 1};
+    const RtLightEntry entry{light, glm::packUnorm2x16(vec2(1.0f)), 0, 1};
     const RtLightRow row{0, count, count, m_map.tables().rows.outside().seesSky, 0};
     m_inputs.frame.clusterCount = 0;
     m_inputs.frame.lightRows = reinterpret_cast<uint64_t>(&row);
@@ -176,9 +176,10 @@ void PointMethods::pickCandidates(const RtLightRow& row, uint candidates, uint s
 void PointMethods::weighCandidates(const RtLightRow& row, float sunSeen) {
     m_weight.clear();
     m_given.clear();
-    for (const Drawn& slot : m_slot)
+    for (const Drawn& slot : m_slot) {
         m_given.push_back(sumOf(m_unshadowed[slot.light]) * double(slot.weight) / m_slots);
-    m_weight = m_given;
+        m_weight.push_back(m_given.back() * double(slot.seen));
+    }
     for (uint i = 0; i < m_otherCount; ++i) {
         const bool isSun = m_map.tables().others[i].kind == kLightSun;
         const double seen = row.seesSky != 0 ? std::max(sunSeen, kLeastSunShare) : 0;
@@ -234,10 +235,11 @@ dvec3 PointMethods::enumerateChoices(uint cullLights, uint candidates, float sun
     dvec3 sum(0);
     for (uint column = 0; column < row.facing; ++column) {
         const RtLightEntry& entry = m_map.tables().rows.entries[row.first + column];
+        const auto chance = double(chanceOfColumn(entry));
         for (const bool own : {true, false}) {
-            const double share = double(own ? entry.chance : 1 - entry.chance) / row.facing;
+            const double share = (own ? chance : 1 - chance) / row.facing;
             if (share <= 0) continue;
-            const double inColumn = own ? 0.5 * double(entry.chance) : 0.5 + 0.5 * double(entry.chance);
+            const double inColumn = own ? 0.5 * chance : 0.5 + 0.5 * chance;
             const auto bits = static_cast<uint>((column + inColumn) * 0x1p32 / row.facing);
             const uint lightWanted = own ? entry.light : m_map.tables().rows.entries[row.first + entry.other].light;
             // The number's last bit may be too coarse for a share: then it must be next to nothing of its light's own.
