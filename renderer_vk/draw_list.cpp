@@ -41,7 +41,7 @@ DrawListBuilder::DrawListBuilder(const MaterialLibrary& materials, const ModelLi
         memoryOf(depth);
     if (!world) return;
     m_visibility = std::make_unique<WorldVisibility>(*world);
-    m_lights = std::make_unique<SurfaceLights>(world->surfaces.size());
+    m_lights = std::make_unique<SurfaceLights>(world->surfaces.size(), world->bsp.leafs.size());
     m_handled.resize(world->surfaces.size());
 }
 

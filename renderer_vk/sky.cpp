@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/busy_frame.hpp"
+
 namespace q3rt {
 
 namespace {
@@ -35,6 +37,8 @@ int faceOf(const vec3& sum) {
 float gridCoordinate(int line) { return static_cast<float>(line) / (kSkyBlocks / 2) - 1.0f; }
 
 } // namespace
+
+SkyCoverage::SkyCoverage() { m_points.reserve(busyFrame::kSmall); }
 
 void SkyCoverage::clear() {
     m_mins.fill(vec2(kEmptyMin));

@@ -20,6 +20,7 @@ inline constexpr int kSkyBlocks = 8;     ///< blocks a face side
 /// Covered part of each face in s, t of [-1, 1].
 class SkyCoverage {
   public:
+    SkyCoverage();
     void clear();
     /// One triangle, relative to the eye.
     void addTriangle(const vec3& a, const vec3& b, const vec3& c);

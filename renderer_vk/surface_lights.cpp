@@ -53,8 +53,9 @@ void SurfaceLights::findReached(const World& world, const VisibleWorld& visible,
     std::ranges::sort(m_reached);
 }
 
-SurfaceLights::SurfaceLights(size_t surfaceCount)
+SurfaceLights::SurfaceLights(size_t surfaceCount, size_t leafCount)
     : m_touching(surfaceCount) {
+    m_leafs.reserve(leafCount);
     m_reached.reserve(surfaceCount * kUsualLights);
     // What is listed, as much that is replaced, and a frame's more.
     for (std::vector<uint32_t>* lists : {&m_lists, &m_packed})

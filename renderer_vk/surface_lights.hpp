@@ -16,7 +16,7 @@ namespace q3rt {
 /// are drawn on it if it lies near enough. The original does so, and a floor lit through its neighbours shows it.
 class SurfaceLights {
   public:
-    explicit SurfaceLights(size_t surfaceCount);
+    SurfaceLights(size_t surfaceCount, size_t leafCount);
     /// For `visible` as the walk found it.
     void findReached(const World& world, const VisibleWorld& visible, std::span<const SceneLight> lights);
     /// (place, light) of one place in `visible`, lights ascending.

@@ -9,6 +9,7 @@
 #include "engine/conversions.hpp"
 #include "engine/engine_imports.hpp"
 #include "engine/guard.hpp"
+#include "scene/busy_frame.hpp"
 
 namespace q3rt {
 namespace {
@@ -26,6 +27,12 @@ void runEngineCommand();
 
 /// What calls hand over, kept from call to call for its memory.
 struct CallBuffers {
+    CallBuffers() {
+        polyVertices.reserve(busyFrame::kWorkVertices);
+        markPolygon.reserve(busyFrame::kSmall);
+        markPoints.reserve(busyFrame::kWorkVertices);
+        markFragments.reserve(busyFrame::kWorkVertices);
+    }
     std::vector<PolyVertex> polyVertices;
     std::vector<vec3> markPolygon, markPoints;
     std::vector<MarkFragment> markFragments;

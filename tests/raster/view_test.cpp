@@ -251,7 +251,7 @@ TEST(RasterLights, SurfacesKeepLightsThatDoNotReachTheirLeafAnyMore) {
     VisibleWorld visible;
     visible.surfaces = {0, 1};
     visible.surfaceLeaf = {0, 1};
-    SurfaceLights lights(2);
+    SurfaceLights lights(2, 2);
     const auto lightAt = [](float x) {
         SceneLight light;
         light.origin = vec3(x, 0, 0);
