@@ -25,7 +25,7 @@ void lookPixel(uvec2 pixelPosition)
             continue;
         }
         Hit hit = sight.solid;
-        uint state = (near ? kLookNear : 0u) | (layered ? kLookOn : 0u);
+        uint state = (near ? kLookNear : 0u) | (layered ? kLookOn | kLookLayered : 0u);
         storeLook(rtFrame.looks, pixelIndex(pixelPosition),
                   RtLook(hit.t, hit.instance, hit.triangle, state, hit.barycentric, uvec2(0u)));
         break;

@@ -84,6 +84,15 @@ Outlook lookAhead(CameraRay ray)
     return Outlook(kLookAhead, Sight(noHit(), emptyBatch(LayerKey(ray.from, 0u, 0u))), false, ray.from, 0.0, 0u);
 }
 
+// What the look stage found is not looked for again.
+Outlook afterFirstLook(RtLook seen, CameraRay ray)
+{
+    Sight sight = Sight(Hit(seen.t, seen.instance, seen.triangle, seen.barycentric),
+                        emptyBatch(LayerKey(ray.from, 0u, 0u)));
+    return Outlook((seen.state & kLookLayered) != 0u ? kLookLayers : kLookNowhere, sight, false, ray.from,
+                   seen.t > 0.0 ? seen.t : ray.from + rtFrame.farQu, 0u);
+}
+
 // The one place where camera rays are traced: what is inlined here is large.
 void look(inout Outlook view, CameraRay ray)
 {
@@ -130,12 +139,11 @@ Hit nextSurface(inout Outlook view, uvec4 key, out vec2 random)
     return view.sight.solid;
 }
 
-// Follows a ray through the near depth range, the far one and all turns. `part` numbers the ray's parts for random
-// numbers.
-void addRay(inout Picture picture, CameraRay ray, bool near, uint part, uvec4 key)
+// Follows a ray, from `view` on, through the near depth range, the far one and all turns. `part` numbers the ray's
+// parts for random numbers.
+void addRay(inout Picture picture, CameraRay ray, Outlook view, bool near, uint part, uvec4 key)
 {
     uint sky = 0u;
-    Outlook view = lookAhead(ray);
     for (;;) {
         if (view.look != kLookNowhere) {
             uint looked = view.look;
@@ -182,17 +190,20 @@ void addRay(inout Picture picture, CameraRay ray, bool near, uint part, uvec4 ke
 // Draws the pixels that the stage before left.
 void primaryPixel(uvec2 pixelPosition)
 {
-    if ((loadLookState(rtFrame.looks, pixelIndex(pixelPosition)) & kLookOn) == 0u)
+    RtLook seen = loadLook(rtFrame.looks, pixelIndex(pixelPosition));
+    if ((seen.state & kLookOn) == 0u)
         return;
     CameraPlace place = cameraPlace(pixelPosition);
+    place.near = (seen.state & kLookNear) != 0u;
     uvec4 key = randomKey(pixelPosition);
     Picture picture = beginPicture(place, pixelPosition);
     bool near = place.near;
     uint part = near ? 0u : 1u;
     CameraRay ray = near ? nearRay(picture.at) : makeCameraRay(picture.at, picture.onLens);
+    Outlook view = afterFirstLook(seen, ray);
     // Once for the camera ray, once more for a reflection of it.
     for (;;) {
-        addRay(picture, ray, near, part, key);
+        addRay(picture, ray, view, near, part, key);
         if (picture.reflection.passed == vec3(0.0))
             break;
         picture.passed = picture.reflection.passed;
@@ -201,6 +212,7 @@ void primaryPixel(uvec2 pixelPosition)
         picture.onLens = picture.reflection.onLens;
         ray = makeCameraRay(picture.at, picture.onLens);
         turnAtPlane(ray, picture.reflection.position, picture.reflection.normal, picture.reflection.t);
+        view = lookAhead(ray);
         near = false;
         part = kReflectionPart;
     }

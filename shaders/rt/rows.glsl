@@ -67,8 +67,6 @@ RtLook loadLook(SHARED_ADDRESS looks, uint index)
     return RtLook(uintBitsToFloat(r0.x), r0.y, r0.z, r0.w, uintBitsToFloat(uvec2(r1)), uvec2(0u));
 }
 
-uint loadLookState(SHARED_ADDRESS looks, uint index) { return RowTable(looks).at[index * kLookRows].w; }
-
 void storeLookState(SHARED_ADDRESS looks, uint index, uint state) { RowTable(looks).at[index * kLookRows].w = state; }
 
 void storeLook(SHARED_ADDRESS looks, uint index, RtLook seen)

@@ -6,6 +6,7 @@ SHARED_BEGIN
 
 SHARED_CONST kLookNear = 0x1u; // seen in the near depth range
 SHARED_CONST kLookOn = 0x2u;   // the pixel needs more rays: the primary stage draws it
+SHARED_CONST kLookLayered = 0x4u; // layers are in front of what was seen
 
 // One a pixel, row by row.
 struct RtLook {
