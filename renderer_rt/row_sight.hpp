@@ -1,6 +1,6 @@
 #pragma once
 // Which lights a row's points see: the map's visibility says what may be seen from somewhere in a cluster, a few rays
-// say how much of it is. On most maps two thirds of a row's lights, by shadow rays, are hidden.
+// say how much of it is.
 
 #include "renderer_rt/light_probe.hpp"
 

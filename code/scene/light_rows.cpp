@@ -52,6 +52,21 @@ struct ClusterRows {
     std::vector<RtLightEntry> entries;
 };
 
+/// Sets odds, columns and weights of a row's facing entries for choosing them in proportion to `weights`, one each.
+/// `seen` likewise: seenOf().
+void setOdds(std::span<RtLightEntry> entries, const std::vector<double>& weights, std::span<const float> seen) {
+    std::vector<AliasColumn> columns = buildAliasTable(weights);
+    for (size_t i = 0; i < entries.size(); ++i) {
+        // Rounded to none, a light that no other column has could not be chosen.
+        entries[i].odds = glm::packUnorm2x16(vec2(std::max(columns[i].chance, 1.0f / 65535), seen[i]));
+        entries[i].other = columns[i].other;
+        columns[i].chance = chanceOf(entries[i]);
+    }
+    const std::vector<double> probability = aliasProbabilities(columns);
+    for (size_t i = 0; i < entries.size(); ++i)
+        entries[i].weight = static_cast<float>(1 / probability[i]);
+}
+
 class RowBuilder {
   public:
     RowBuilder(const World& world, const MaterialLibrary& materials, std::span<const RowLight> lights)
@@ -158,19 +173,6 @@ void append(LightRows& rows, const ClusterRows& cluster, size_t rowCount) {
 }
 
 } // namespace
-
-void setOdds(std::span<RtLightEntry> entries, const std::vector<double>& weights, std::span<const float> seen) {
-    std::vector<AliasColumn> columns = buildAliasTable(weights);
-    for (size_t i = 0; i < entries.size(); ++i) {
-        // Rounded to none, a light that no other column has could not be chosen.
-        entries[i].odds = glm::packUnorm2x16(vec2(std::max(columns[i].chance, 1.0f / 65535), seen[i]));
-        entries[i].other = columns[i].other;
-        columns[i].chance = chanceOf(entries[i]);
-    }
-    const std::vector<double> probability = aliasProbabilities(columns);
-    for (size_t i = 0; i < entries.size(); ++i)
-        entries[i].weight = static_cast<float>(1 / probability[i]);
-}
 
 void followSight(LightRows& rows, const RtLightRow& row, std::span<const float> seen) {
     const auto entries = std::span(rows.entries).subspan(row.first, row.facing);

@@ -24,8 +24,4 @@ bool shinesToward(const RowLight& light, const RowRegion& region);
 std::vector<double> weighLights(std::span<const RowLight> lights, std::span<const uint32_t> list,
                                 const RowRegion& region);
 
-/// Sets odds, columns and weights of a row's facing entries for choosing them in proportion to `weights`, one each.
-/// `seen` likewise: seenOf().
-void setOdds(std::span<RtLightEntry> entries, const std::vector<double>& weights, std::span<const float> seen);
-
 } // namespace q3rt
