@@ -17,6 +17,9 @@ constexpr float kOpaqueSort = 3.0f;
 
 float wholeByte(float value) { return std::floor(std::clamp(value, 0.0f, 1.0f) * 255.0f) / 255.0f; }
 
+/// All four of its corners are there.
+bool isSquare(const EntitySurface& surface) { return surface.vertexCount == 4 && !surface.partly; }
+
 /// Every pixel of such a surface gets a colour and a depth of its own, whatever lies behind.
 bool coversWhatIsBehind(const Material& material) {
     if (material.sort != kOpaqueSort || material.polygonOffset || material.stages.empty()) return false;
@@ -54,9 +57,7 @@ uint32_t DrawListBuilder::entityIndex(ViewWork& work, uint32_t entity) {
     index = static_cast<int>(work.out.entities.size());
     const EntityRecord& record = work.geometry.entities[entity];
     RasterEntity target{};
-    constexpr uint32_t kHeld = entityFlag::kDepthHack | entityFlag::kCrosshair;
-    const bool weapon = (record.flags & kHeld) == entityFlag::kDepthHack;
-    const mat4& clip = weapon ? work.view.clipFromWorldNear : work.view.clipFromWorld;
+    const mat4& clip = entityFlag::isHeld(record.flags) ? work.view.clipFromWorldNear : work.view.clipFromWorld;
     target.clipFromModel = mat4(glm::dmat4(clip) * glm::dmat4(record.worldFromModel));
     const mat4 rows = glm::transpose(record.worldFromModel);
     target.worldRow0 = rows[0];
@@ -249,9 +250,9 @@ void DrawListBuilder::appendBatch(ViewWork& work, size_t firstItem, size_t lastI
 /// The vertices of effects are the view's own: they move where the picture begins and ends, for each stage by itself.
 void DrawListBuilder::trimEffects(ViewWork& work, DrawBatch& batch, size_t firstItem, size_t lastItem) {
     if (batch.source != VertexSource::Dynamic || batch.stages.count == 0) return;
-    const auto isSquare = [&](const Item& item) { return work.geometry.surfaces[item.surface].vertexCount == 4; };
     const auto items = std::span(work.items).subspan(firstItem, lastItem - firstItem);
-    if (std::ranges::none_of(items, isSquare)) return;
+    if (std::ranges::none_of(items, [&](const Item& item) { return isSquare(work.geometry.surfaces[item.surface]); }))
+        return;
     const size_t firstIndex = work.out.indices.size(), firstVertex = work.out.vertices.size();
     const auto firstRange = static_cast<uint32_t>(work.out.stageRanges.size());
     bool trimmed = false;
@@ -279,7 +280,7 @@ bool DrawListBuilder::appendTrimmed(ViewWork& work, const DrawBatch& batch, uint
     const auto trim = [&]() -> std::optional<TexturePart> {
         const StageState& state = m_stages.states()[batch.stages.first + stage];
         const size_t texture = state.unit[0].texture;
-        if (surface.vertexCount != 4 || texture >= work.settings.textureParts.size()) return std::nullopt;
+        if (!isSquare(surface) || texture >= work.settings.textureParts.size()) return std::nullopt;
         const EffectSquare square(std::span(work.out.vertices).subspan(firstVertex).first<4>(),
                                   triangleView(work, batch));
         if (!square.usable()) return std::nullopt;

@@ -92,7 +92,8 @@ void DrawListBuilder::buildView(ViewWork& work) {
     geometry.deformWorld = world && work.settings.drawWorld;
     if (work.settings.raster.r_nocull == 0) geometry.cullPlanes = work.view.frustum;
     if (work.settings.cullTriangles && work.settings.raster.r_ext_multisample <= 0)
-        geometry.picture = {work.view.clipFromWorld, vec2(work.view.scene->width, work.view.scene->height)};
+        geometry.picture = {work.view.clipFromWorld, work.view.clipFromWorldNear,
+                            vec2(work.view.scene->width, work.view.scene->height)};
     if (world) geometry.visibleSurfaces = m_visibility->visibleSurfaces();
     buildViewGeometry(work.frame, *work.view.scene, work.view.eye, m_world, m_models, m_materials, geometry,
                       work.geometry);

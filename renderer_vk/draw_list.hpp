@@ -12,7 +12,7 @@
 #include "renderer_vk/shadow_volume.hpp"
 #include "renderer_vk/sky.hpp"
 #include "renderer_vk/surface_lights.hpp"
-#include "renderer_vk/triangle_cull.hpp"
+#include "scene/triangle_cull.hpp"
 #include "renderer_vk/visibility.hpp"
 #include "scene/entity_geometry.hpp"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "renderer_vk/triangle_cull.hpp"
+#include "scene/triangle_cull.hpp"
 #include "scene/stage_table.hpp"
 #include "scene/texture.hpp"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer_vk/triangle_cull.hpp"
+#include "scene/triangle_cull.hpp"
 #include "shaders/shared/raster.h"
 
 namespace q3rt {

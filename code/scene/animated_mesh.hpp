@@ -11,6 +11,7 @@
 #include "formats/md3.hpp"
 #include "formats/mdr.hpp"
 #include "math/affine.hpp"
+#include "math/lanes.hpp"
 #include "shaders/shared/vertex.h"
 
 namespace q3rt {
@@ -52,6 +53,11 @@ class AnimatedMesh {
     virtual void pose(const FramePair& frames, std::vector<Affine>& bones) const = 0;
     virtual void appendVertices(size_t surface, const FramePair& frames, std::span<const Affine> bones,
                                 std::vector<Vertex>& out) const = 0;
+    /// Only where the vertices are, the fourth of each number means nothing; false where all of a vertex is no more
+    /// work.
+    virtual bool findPositions(size_t, const FramePair&, std::vector<Float4>&) const { return false; }
+    /// The vertices of these numbers, where findPositions() knows their places.
+    virtual void appendSome(size_t, const FramePair&, std::span<const uint32_t>, std::vector<Vertex>&) const {}
 };
 
 std::unique_ptr<AnimatedMesh> makeMd3Mesh(Md3 model);

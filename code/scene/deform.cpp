@@ -72,6 +72,10 @@ void deformProjectionShadow(const DeformContext& context, std::vector<Vertex>& v
     }
 }
 
+bool isSprite(const Deform& deform) {
+    return deform.kind == DeformKind::AutoSprite || deform.kind == DeformKind::AutoSprite2;
+}
+
 } // namespace
 
 void deformVertices(const Material& material, const DeformContext& context, std::vector<Vertex>& vertices,
@@ -141,10 +145,14 @@ float deformReachQu(const Material& material) {
     return reach;
 }
 
-bool deformsWithView(const Material& material) {
-    return std::any_of(material.deforms.begin(), material.deforms.end(), [](const Deform& deform) {
-        return deform.kind == DeformKind::AutoSprite || deform.kind == DeformKind::AutoSprite2;
-    });
+bool deformsWithView(const Material& material) { return std::ranges::any_of(material.deforms, isSprite); }
+
+Bounds deformedBounds(const Material& material, const Bounds& box) {
+    if (box.empty()) return {};
+    float reach = deformReachQu(material);
+    // A square turns about its middle, or about a line through it, and grows no larger.
+    if (material.deforms.size() == 1 && isSprite(material.deforms[0])) reach = 0.5f * glm::length(box.maxs - box.mins);
+    return std::isfinite(reach) ? Bounds{box.mins - reach, box.maxs + reach} : Bounds{};
 }
 
 } // namespace q3rt

@@ -33,6 +33,10 @@ void deformVertices(const Material& material, const DeformContext& context, std:
 /// where the size of the surface decides (sprites) or nothing does (text, shadows).
 float deformReachQu(const Material& material);
 
+/// Holds what the material's deforms make of unit-normal vertices that lie in `box`, at any time and from any view
+/// whose axes are unit vectors; empty where that is not known.
+Bounds deformedBounds(const Material& material, const Bounds& box);
+
 /// Do any of the material's deforms turn with the view?
 bool deformsWithView(const Material& material);
 

@@ -60,6 +60,9 @@ void ViewGeometry::reserve() {
     batchVertices.reserve(busyFrame::kWorkVertices);
     batchIndices.reserve(busyFrame::kWorkVertices * 6);
     bones.reserve(busyFrame::kSmall);
+    positions.reserve(busyFrame::kWorkVertices);
+    shownNumbers.reserve(busyFrame::kWorkVertices);
+    numberInShown.reserve(busyFrame::kWorkVertices);
     recordOfInlineModel.reserve(busyFrame::kSmall);
 }
 

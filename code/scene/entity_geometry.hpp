@@ -10,6 +10,7 @@
 #include "scene/model.hpp"
 #include "scene/scene_types.hpp"
 #include "scene/stage_table.hpp"
+#include "scene/triangle_cull.hpp"
 #include "scene/world.hpp"
 
 namespace q3rt {
@@ -42,6 +43,7 @@ struct EntitySurface {
     bool singleFrame = false;    ///< of a model with one frame: `source` alone says what it looks like, if not deformed
     bool castsVolume = false;    ///< Shadows::Volume
     bool deformed = false;       ///< vertices are not those of `source` at these frames: don't cache
+    bool partly = false;         ///< of `source` only what may show: nor those
 };
 
 struct ViewGeometry {
@@ -55,7 +57,11 @@ struct ViewGeometry {
     // Work space of the builder, kept from frame to frame so that a steady frame allocates nothing.
     std::vector<Vertex> batchVertices;
     std::vector<uint32_t> batchIndices;
-    std::vector<Affine> bones;                 ///< of the mesh that is being added
+    std::vector<Affine> bones;           ///< of the mesh that is being added
+    std::vector<Float4> positions;       ///< of its surface
+    std::vector<uint32_t> shownNumbers;  ///< of the surface's vertices that may show
+    std::vector<uint32_t> numberInShown; ///< the other way round, by the surface's vertex
+    TriangleCuller culler;
     std::vector<uint32_t> recordOfInlineModel; ///< by BSP submodel; 0 not in the view
 };
 
@@ -72,7 +78,7 @@ struct ViewGeometrySettings {
     bool isPortalView = false, mirrored = false;
     /// Mesh models wholly behind one of these planes (normals inward) get a record and no geometry. Empty: none.
     std::span<const Plane> cullPlanes;
-    PictureOfView picture; ///< surfaces of mesh models that no pixel of it shows are left out
+    PictureOfView picture; ///< polys, and surfaces and triangles of mesh models, that no pixel of it shows are left out
     /// By world surface: 0 where no deformed copy is needed. Empty: all are. Not asked for those of submodels.
     std::span<const uint8_t> visibleSurfaces;
     Shadows shadows = Shadows::None;

@@ -56,16 +56,67 @@ void appendDeformed(const ViewBuild& build, const Material& material, const Defo
     }
 }
 
-void addMeshSurface(const ViewBuild& build, const SceneEntity& entity, const AnimatedMesh& mesh,
-                    const ModelSurface& source, MaterialId material, uint32_t record, const FramePair& frames,
-                    int fog) {
+/// How a mesh model is seen, if triangles may be left out by it.
+struct MeshView {
+    const AnimatedMesh& mesh;
+    FramePair frames;
+    TriangleView triangles; ///< its cull mode is each surface's own
+    bool judged = false;    ///< what no pixel shows is left out
+};
+
+MeshView makeMeshView(const ViewBuild& build, const SceneEntity& entity, const AnimatedMesh& mesh,
+                      const FramePair& frames, const mat4& worldFromModel) {
+    const PictureOfView& picture = build.settings.picture;
+    MeshView result{mesh, frames, {}, picture.sizePx.x > 0 && build.settings.shadows != Shadows::Volume};
+    if (!result.judged) return result;
+    const mat4& clip = entityFlag::isHeld(entity.flags) ? picture.clipFromWorldHeld : picture.clipFromWorld;
+    result.triangles.clipFromModel = mat4(glm::dmat4(clip) * glm::dmat4(worldFromModel));
+    result.triangles.sizePx = picture.sizePx;
+    result.triangles.mirrored = build.settings.mirrored;
+    return result;
+}
+
+/// Appends the triangles that may show, and only their vertices; false where the mesh can't say where they are first.
+bool appendShown(const ViewBuild& build, const MeshView& view, size_t surface, CullMode cull) {
+    ViewGeometry& out = build.out;
+    if (!view.mesh.findPositions(surface, view.frames, out.positions)) return false;
+    TriangleView triangles = view.triangles;
+    triangles.cull = cull;
+    const std::span<const uint32_t> indices = view.mesh.indices(surface);
+    out.batchIndices.assign(indices.begin(), indices.end());
+    out.culler.cull(triangles, out.positions, out.batchIndices, 0);
+    constexpr uint32_t kNone = ~0u;
+    out.numberInShown.assign(out.positions.size(), kNone);
+    out.shownNumbers.clear();
+    const auto firstVertex = static_cast<uint32_t>(out.vertices.size());
+    for (const uint32_t index : out.batchIndices) {
+        uint32_t& number = out.numberInShown[index];
+        if (number == kNone) {
+            number = firstVertex + static_cast<uint32_t>(out.shownNumbers.size());
+            out.shownNumbers.push_back(index);
+        }
+        out.indices.push_back(number);
+    }
+    view.mesh.appendSome(surface, view.frames, out.shownNumbers, out.vertices);
+    return true;
+}
+
+void appendWhole(const ViewBuild& build, const MeshView& view, const EntitySurface& surface) {
+    const size_t source = surface.source->surface;
+    view.mesh.appendVertices(source, view.frames, build.out.bones, build.out.vertices);
+    for (const uint32_t index : view.mesh.indices(source))
+        build.out.indices.push_back(surface.firstVertex + index);
+}
+
+void addMeshSurface(const ViewBuild& build, const SceneEntity& entity, const MeshView& view, const ModelSurface& source,
+                    MaterialId material, uint32_t record, int fog) {
     EntitySurface& surface = openSurface(build, material, record);
     surface.fog = fog;
     surface.source = &source;
-    surface.singleFrame = mesh.frameCount() == 1;
-    surface.frame = frames.frame;
-    surface.oldFrame = frames.oldFrame;
-    surface.backLerp = frames.backLerp;
+    surface.singleFrame = view.mesh.frameCount() == 1;
+    surface.frame = view.frames.frame;
+    surface.oldFrame = view.frames.oldFrame;
+    surface.backLerp = view.frames.backLerp;
     const Material& drawn = build.materials.drawn(material);
     surface.deformed = !drawn.deforms.empty();
     if (surface.deformed) {
@@ -74,29 +125,21 @@ void addMeshSurface(const ViewBuild& build, const SceneEntity& entity, const Ani
             makeDeformContext(build, entity.orientation, entity.nonNormalizedAxes, of.stage.shaderTimeSeconds);
         context.lightDirection = of.light.direction;
         context.heightAboveShadowPlane = entity.orientation.origin.z - entity.shadowPlane;
-        appendDeformed(build, drawn, context, mesh, surface);
+        appendDeformed(build, drawn, context, view.mesh, surface);
     } else {
-        mesh.appendVertices(source.surface, frames, build.out.bones, build.out.vertices);
-        const std::span<const uint32_t> indices = mesh.indices(source.surface);
-        std::vector<uint32_t>& out = build.out.indices;
-        const size_t first = out.size();
-        out.resize(first + indices.size());
-        for (size_t i = 0; i < indices.size(); ++i)
-            out[first + i] = surface.firstVertex + indices[i];
+        surface.partly = view.judged && appendShown(build, view, source.surface, drawn.cull);
+        if (!surface.partly) appendWhole(build, view, surface);
     }
     closeSurface(build, surface);
 }
 
 /// Left out are only surfaces that nothing else depends on: no shadow, nor what their batch looks like.
-bool mayShow(const ViewBuild& build, const SceneEntity& entity, const AnimatedMesh& mesh, size_t surface,
-             MaterialId material, const FramePair& frames, const mat4& clipFromModel) {
-    const vec2& sizePx = build.settings.picture.sizePx;
-    const bool judged = sizePx.x > 0 && build.settings.shadows != Shadows::Volume &&
-                        build.materials.drawn(material).deforms.empty() &&
-                        !build.materials.get(material).entityMergable && !(entity.flags & entityFlag::kDepthHack);
+bool mayShow(const ViewBuild& build, const MeshView& view, size_t surface, MaterialId material) {
+    const bool judged =
+        view.judged && build.materials.drawn(material).deforms.empty() && !build.materials.get(material).entityMergable;
     if (!judged) return true;
-    const Bounds box = mesh.surfaceBox(surface, frames);
-    return box.empty() || boxShows(clipFromModel, sizePx, box);
+    const Bounds box = view.mesh.surfaceBox(surface, view.frames);
+    return box.empty() || boxShows(view.triangles.clipFromModel, view.triangles.sizePx, box);
 }
 
 void addMesh(const ViewBuild& build, const SceneEntity& entity, int sceneIndex, const Model& model) {
@@ -124,20 +167,19 @@ void addMesh(const ViewBuild& build, const SceneEntity& entity, int sceneIndex, 
     lod.mesh->pose(frames, build.out.bones);
     const bool isSeen =
         build.settings.isPortalView || build.settings.keepHiddenEntities || !(entity.flags & entityFlag::kThirdPerson);
-    const mat4 clipFromModel(glm::dmat4(build.settings.picture.clipFromWorld) *
-                             glm::dmat4(build.out.entities[record].worldFromModel));
+    const MeshView view = makeMeshView(build, entity, *lod.mesh, frames, build.out.entities[record].worldFromModel);
     constexpr float kOpaqueSort = 3;
     for (const ModelSurface& source : lod.surfaces) {
         const MaterialId material =
             surfaceMaterial(build.models, source, entity.customShader, entity.customSkin, entity.skinNumber);
         const bool casts = fog == 0 && build.materials.get(material).sort == kOpaqueSort;
-        if (isSeen && mayShow(build, entity, *lod.mesh, source.surface, material, frames, clipFromModel)) {
-            addMeshSurface(build, entity, *lod.mesh, source, material, record, frames, fog);
+        if (isSeen && mayShow(build, view, source.surface, material)) {
+            addMeshSurface(build, entity, view, source, material, record, fog);
             build.out.surfaces.back().castsVolume = casts && build.settings.shadows == Shadows::Volume &&
                                                     !(entity.flags & (entityFlag::kNoShadow | entityFlag::kDepthHack));
         }
         if (casts && build.settings.shadows == Shadows::Projected && (entity.flags & entityFlag::kShadowPlane))
-            addMeshSurface(build, entity, *lod.mesh, source, build.settings.projectionShadow, record, frames, 0);
+            addMeshSurface(build, entity, view, source, build.settings.projectionShadow, record, 0);
     }
 }
 

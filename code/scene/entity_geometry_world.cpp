@@ -19,19 +19,30 @@ int fogOfPoly(const ViewBuild& build, const Bounds& box) {
     return 0;
 }
 
+/// Left out are only polys that nothing else depends on: not what their batch looks like, nor a sky behind them.
+bool mayShow(const ViewBuild& build, MaterialId id, std::span<const PolyVertex> points) {
+    const PictureOfView& picture = build.settings.picture;
+    const Material& material = build.materials.drawn(id);
+    if (picture.sizePx.x <= 0 || material.isSky || build.materials.get(id).entityMergable) return true;
+    return hullShows(picture.clipFromWorld, picture.sizePx, points.size(),
+                     [&](size_t i) { return points[i].position; });
+}
+
 void addPoly(const ViewBuild& build, const ScenePoly& poly) {
     if (poly.shader == 0 || poly.vertexCount < 3) return;
-    const PolyVertex* points = build.frame.polyVertices.data() + poly.firstVertex;
-    EntitySurface& surface = openSurface(build, materialOfHandle(build, poly.shader), 0);
+    const std::span points = std::span(build.frame.polyVertices).subspan(poly.firstVertex, poly.vertexCount);
+    const MaterialId material = materialOfHandle(build, poly.shader);
+    if (!mayShow(build, material, points)) return;
+    EntitySurface& surface = openSurface(build, material, 0);
     surface.isPoly = true;
     Bounds box;
     vec3 normal(0.0f);
-    for (uint32_t i = 0; i < poly.vertexCount; ++i) {
+    for (uint32_t i = 0; i < points.size(); ++i) {
         box.add(points[i].position);
         if (i >= 2) normal += clockwiseCross(points[0].position, points[i - 1].position, points[i].position);
     }
     normal = normalizeOrZero(normal);
-    for (uint32_t i = 0; i < poly.vertexCount; ++i) {
+    for (uint32_t i = 0; i < points.size(); ++i) {
         build.out.vertices.push_back(
             {points[i].position, normal, points[i].st, vec2(0.0f), packColor(points[i].color), 0});
         if (i >= 2) {
@@ -43,11 +54,24 @@ void addPoly(const ViewBuild& build, const ScenePoly& poly) {
     closeSurface(build, surface);
 }
 
-/// A deformed copy of one surface, in the space of its record.
+/// Of the world's own surfaces: those of brush models are few.
+bool mayShow(const ViewBuild& build, const WorldSurface& surface, const Material& material, uint32_t record) {
+    const PictureOfView& picture = build.settings.picture;
+    if (picture.sizePx.x <= 0 || record != 0) return true;
+    const Bounds box = deformedBounds(material, surface.bounds);
+    return box.empty() || boxShows(picture.clipFromWorld, picture.sizePx, box);
+}
+
+/// A deformed copy of one surface, in the space of its record; an empty one where it can't show.
 void addDeformedSurface(const ViewBuild& build, uint32_t number, const Material& material, const DeformContext& context,
                         uint32_t record) {
     const WorldSurface& source = build.world->surfaces[number];
     ViewGeometry& out = build.out;
+    EntitySurface& surface = openSurface(build, source.material, record);
+    surface.fog = source.fog;
+    surface.worldSurface = static_cast<int>(number);
+    surface.deformed = true;
+    if (!mayShow(build, source, material, record)) return;
     const auto firstVertex = build.world->vertices.begin() + source.firstVertex;
     out.batchVertices.assign(firstVertex, firstVertex + source.vertexCount);
     out.batchIndices.clear();
@@ -55,10 +79,6 @@ void addDeformedSurface(const ViewBuild& build, uint32_t number, const Material&
         out.batchIndices.push_back(build.world->indices[source.firstIndex + i] - source.firstVertex);
     }
     deformVertices(material, context, out.batchVertices, out.batchIndices);
-    EntitySurface& surface = openSurface(build, source.material, record);
-    surface.fog = source.fog;
-    surface.worldSurface = static_cast<int>(number);
-    surface.deformed = true;
     out.vertices.insert(out.vertices.end(), out.batchVertices.begin(), out.batchVertices.end());
     for (const uint32_t index : out.batchIndices) {
         out.indices.push_back(surface.firstVertex + index);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "math/lanes.hpp"
 #include "scene/animated_mesh.hpp"
 #include "scene/world_math.hpp"
 
@@ -9,6 +10,41 @@ namespace q3rt {
 namespace {
 
 constexpr uint32_t kWhite = 0xffffffffu; // MD3 carries no colours
+
+/// A surface between two frames.
+class BlendedSurface {
+  public:
+    BlendedSurface(const Md3Surface& surface, const FramePair& frames)
+        : m_st(surface.st.data())
+        , m_now(surface.vertices.data() + static_cast<size_t>(frames.frame) * surface.vertexCount)
+        , m_old(surface.vertices.data() + static_cast<size_t>(frames.oldFrame) * surface.vertexCount)
+        , m_oldWeight(frames.backLerp) {}
+
+    /// The fourth means nothing.
+    Float4 position(size_t i) const {
+        const Float4 now = stepsOf(m_now[i]) * kMd3Step;
+        if (m_oldWeight == 0.0f) return now;
+        return stepsOf(m_old[i]) * kMd3Step * m_oldWeight + now * (1.0f - m_oldWeight);
+    }
+    vec3 normal(size_t i) const {
+        if (m_oldWeight == 0.0f) return m_now[i].normal();
+        return fastNormalize(m_old[i].normal() * m_oldWeight + m_now[i].normal() * (1.0f - m_oldWeight));
+    }
+    Vertex vertex(size_t i) const {
+        const Float4 at = position(i);
+        return {vec3(at[0], at[1], at[2]), normal(i), m_st[i], vec2(0.0f), kWhite, 0};
+    }
+
+  private:
+    static Float4 stepsOf(const Md3Vertex& vertex) {
+        using Short4 = int16_t __attribute__((vector_size(8)));
+        static_assert(sizeof(Md3Vertex) == sizeof(Short4));
+        return __builtin_convertvector(std::bit_cast<Short4>(vertex), Float4);
+    }
+    const vec2* m_st;
+    const Md3Vertex *m_now, *m_old;
+    float m_oldWeight;
+};
 
 class Md3Mesh : public AnimatedMesh {
   public:
@@ -30,6 +66,9 @@ class Md3Mesh : public AnimatedMesh {
     void pose(const FramePair&, std::vector<Affine>& bones) const override { bones.clear(); }
     void appendVertices(size_t surface, const FramePair& frames, std::span<const Affine> bones,
                         std::vector<Vertex>& out) const override;
+    bool findPositions(size_t surface, const FramePair& frames, std::vector<Float4>& out) const override;
+    void appendSome(size_t surface, const FramePair& frames, std::span<const uint32_t> numbers,
+                    std::vector<Vertex>& out) const override;
 
   private:
     const Md3Tag* findTag(int frame, std::string_view name) const;
@@ -74,27 +113,26 @@ bool Md3Mesh::lerpTag(std::string_view name, int startFrame, int endFrame, float
 
 void Md3Mesh::appendVertices(size_t index, const FramePair& frames, std::span<const Affine>,
                              std::vector<Vertex>& out) const {
-    const Md3Surface& surface = m_model.surfaces[index];
-    const size_t count = surface.vertexCount;
-    const size_t first = out.size();
+    const BlendedSurface blended(m_model.surfaces[index], frames);
+    const size_t first = out.size(), count = m_model.surfaces[index].vertexCount;
     out.resize(first + count);
-    const Md3Vertex* now = surface.vertices.data() + static_cast<size_t>(frames.frame) * count;
-    Vertex* vertex = out.data() + first;
-    if (frames.backLerp == 0.0f) {
-        for (size_t i = 0; i < count; ++i)
-            vertex[i] = {now[i].position(), now[i].normal(), surface.st[i], vec2(0.0f), kWhite, 0};
-        return;
-    }
-    const Md3Vertex* old = surface.vertices.data() + static_cast<size_t>(frames.oldFrame) * count;
-    const float weight = 1.0f - frames.backLerp;
-    for (size_t i = 0; i < count; ++i) {
-        vertex[i] = {old[i].position() * frames.backLerp + now[i].position() * weight,
-                     fastNormalize(old[i].normal() * frames.backLerp + now[i].normal() * weight),
-                     surface.st[i],
-                     vec2(0.0f),
-                     kWhite,
-                     0};
-    }
+    for (size_t i = 0; i < count; ++i)
+        out[first + i] = blended.vertex(i);
+}
+
+bool Md3Mesh::findPositions(size_t index, const FramePair& frames, std::vector<Float4>& out) const {
+    const BlendedSurface blended(m_model.surfaces[index], frames);
+    out.resize(m_model.surfaces[index].vertexCount);
+    for (size_t i = 0; i < out.size(); ++i)
+        out[i] = blended.position(i);
+    return true;
+}
+
+void Md3Mesh::appendSome(size_t index, const FramePair& frames, std::span<const uint32_t> numbers,
+                         std::vector<Vertex>& out) const {
+    const BlendedSurface blended(m_model.surfaces[index], frames);
+    for (const uint32_t number : numbers)
+        out.push_back(blended.vertex(number));
 }
 
 } // namespace

@@ -18,7 +18,9 @@ enum class EntityKind { Model, Poly, Sprite, Beam, RailCore, RailRings, Lightnin
 namespace entityFlag {
 inline constexpr uint32_t kMinLight = 0x1, kThirdPerson = 0x2, kFirstPerson = 0x4, kDepthHack = 0x8, kCrosshair = 0x10,
                           kNoShadow = 0x40, kLightingOrigin = 0x80, kShadowPlane = 0x100, kWrapFrames = 0x200;
-}
+/// Drawn with the view's nearer projection: what the player holds.
+inline bool isHeld(uint32_t flags) { return (flags & (kDepthHack | kCrosshair)) == kDepthHack; }
+} // namespace entityFlag
 /// rdflags bits.
 namespace viewFlag {
 inline constexpr uint32_t kNoWorldModel = 0x1, kHyperspace = 0x4;

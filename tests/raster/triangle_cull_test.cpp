@@ -5,7 +5,7 @@
 #include <array>
 #include <random>
 
-#include "renderer_vk/triangle_cull.hpp"
+#include "scene/triangle_cull.hpp"
 
 namespace q3rt {
 namespace {

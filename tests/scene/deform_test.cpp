@@ -1,6 +1,7 @@
 // Deforms (spec of materials 2.4, of models 6).
 
 #include <cmath>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -116,6 +117,39 @@ TEST(Deform, AutoSpriteFacesTheView) {
     EXPECT_NEAR(glm::distance(batch.vertices[0].position, vec3(0, half, half)), 0, 1e-4f);
     EXPECT_EQ(batch.vertices[2].st, vec2(1, 1));
     EXPECT_EQ(batch.vertices[0].normal, vec3(-1, 0, 0));
+}
+
+TEST(Deform, NothingLeavesTheBoundsOfASprite) {
+    std::mt19937 random(11);
+    std::normal_distribution<float> any;
+    for (int i = 0; i < 2000; ++i) {
+        Deform deform;
+        deform.kind = i % 2 == 0 ? DeformKind::AutoSprite : DeformKind::AutoSprite2;
+        const vec3 centre = 100.0f * vec3(any(random), any(random), any(random));
+        const vec3 right = glm::normalize(vec3(any(random), any(random), any(random)));
+        const vec3 up = glm::normalize(glm::cross(right, vec3(any(random), any(random), any(random))));
+        const vec3 x = right * std::abs(20 * any(random)), y = up * std::abs(20 * any(random));
+        Batch batch{{makeVertex(centre - x - y), makeVertex(centre + x - y), makeVertex(centre + x + y),
+                     makeVertex(centre - x + y)},
+                    {0, 1, 2, 0, 2, 3}};
+        Bounds box;
+        for (const Vertex& vertex : batch.vertices)
+            box.add(vertex.position);
+        const Bounds bounds = deformedBounds(makeMaterial(deform), box);
+        DeformContext context;
+        context.viewForward = glm::normalize(vec3(any(random), any(random), any(random)));
+        context.viewLeft = glm::normalize(glm::cross(context.viewForward, vec3(any(random), any(random), any(random))));
+        context.viewUp = glm::cross(context.viewForward, context.viewLeft);
+        deformVertices(makeMaterial(deform), context, batch.vertices, batch.indices);
+        constexpr float kRoundingQu = 1e-3f;
+        for (const Vertex& vertex : batch.vertices) {
+            EXPECT_TRUE(glm::all(glm::greaterThanEqual(vertex.position, bounds.mins - kRoundingQu)));
+            EXPECT_TRUE(glm::all(glm::lessThanEqual(vertex.position, bounds.maxs + kRoundingQu)));
+        }
+    }
+    Deform text;
+    text.kind = DeformKind::Text;
+    EXPECT_TRUE(deformedBounds(makeMaterial(text), Bounds{vec3(0), vec3(1)}).empty()) << "not known";
 }
 
 TEST(Deform, AutoSprite2TurnsAboutTheLongAxisAndObeysIndexOrder) {

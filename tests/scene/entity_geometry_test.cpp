@@ -99,6 +99,8 @@ TEST_F(EntityGeometryTest, SurfacesThatNoPixelShowsAreNotAnimated) {
     clip[0][2] = clip[0][3] = 1.0f;
     m_settings.picture.sizePx = vec2(20, 20);
     SceneEntity& entity = add(EntityKind::Model);
+    const Orientation facing{{}, {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}}}; // the triangle faces the eye
+    entity.orientation = facing;
     const auto shownAt = [&](const vec3& origin) {
         entity.orientation.origin = origin;
         return !build().vertices.empty();
@@ -107,16 +109,42 @@ TEST_F(EntityGeometryTest, SurfacesThatNoPixelShowsAreNotAnimated) {
     EXPECT_FALSE(shownAt({1000, 60, 48})) << "between columns";
     EXPECT_FALSE(shownAt({1000, 48, 60})) << "between rows";
     EXPECT_FALSE(shownAt({1000, 1048, 48})) << "beside the picture";
+    std::swap(entity.orientation.axis[0], entity.orientation.axis[1]);
+    EXPECT_FALSE(shownAt({1000, 48, 48})) << "its back to the eye";
+    entity.orientation = {};
     EXPECT_TRUE(shownAt({-4, 0, 0})) << "about the eye";
+    entity.orientation = facing;
     entity.flags = entityFlag::kDepthHack;
-    EXPECT_TRUE(shownAt({1000, 60, 48})) << "held in the hand: its place is another";
+    m_settings.picture.clipFromWorldHeld = clip;
+    m_settings.picture.clipFromWorldHeld[1][0] = 0.8f;
+    EXPECT_TRUE(shownAt({1000, 60, 48})) << "held in the hand: the view is another";
     entity.flags = 0;
     m_settings.shadows = Shadows::Volume;
     EXPECT_TRUE(shownAt({1000, 60, 48})) << "its shadow may be seen";
     m_settings.shadows = Shadows::None;
     entity.frame = 1;
     entity.backLerp = 1.5f;
-    EXPECT_TRUE(shownAt({1000, 60, 48})) << "beyond both frames";
+    EXPECT_FALSE(shownAt({1000, 60, 48}));
+    EXPECT_TRUE(shownAt({1000, 48, 48})) << "beyond both frames";
+}
+
+TEST_F(EntityGeometryTest, PolysThatNoPixelShowsAreLeftOut) {
+    mat4& clip = m_settings.picture.clipFromWorld; // as above
+    clip = mat4(0.0f);
+    clip[1][0] = clip[2][1] = 1.0f;
+    clip[0][2] = clip[0][3] = 1.0f;
+    m_settings.picture.sizePx = vec2(20, 20);
+    const auto shownAt = [&](float y) {
+        m_frame.polyVertices = {{{1000, y, 44}, {}, {}}, {{1000, y + 8, 44}, {}, {}}, {{1000, y, 56}, {}, {}}};
+        m_frame.polys = {{m_shader, 0, 3}};
+        m_view.polyCount = 1;
+        return !build().surfaces.empty();
+    };
+    EXPECT_TRUE(shownAt(46));
+    EXPECT_FALSE(shownAt(60)) << "between columns";
+    EXPECT_FALSE(shownAt(1046)) << "beside the picture";
+    m_settings.picture.sizePx = vec2(0);
+    EXPECT_TRUE(shownAt(60)) << "there is no picture to judge by";
 }
 
 TEST_F(EntityGeometryTest, ModelIsBlendedBetweenFrames) {

@@ -1,4 +1,4 @@
-#include "renderer_vk/triangle_cull.hpp"
+#include "scene/triangle_cull.hpp"
 
 #include <algorithm>
 #include <array>
@@ -137,13 +137,13 @@ bool rectangleShows(const vec2& corner, const vec2& opposite, const vec2& viewSi
 TriangleCuller::TriangleCuller() { m_screen.reserve(busyFrame::kWorkVertices); }
 
 Q3RT_NEWER_PROCESSORS_TOO
-void TriangleCuller::project(const TriangleView& view, std::span<const Vertex> vertices) {
+void TriangleCuller::project(const TriangleView& view, const Positions& positions, size_t first, size_t count) {
     const mat4& m = view.clipFromModel;
     const vec2 edge = 1.0f + 2.0f * kSlackPx / view.sizePx, half = 0.5f * view.sizePx;
-    m_screen.resize((vertices.size() + kLanes - 1) / kLanes * kLanes);
-    for (size_t i = 0; i < vertices.size(); i += kLanes) {
+    m_screen.resize((count + kLanes - 1) / kLanes * kLanes);
+    for (size_t i = 0; i < count; i += kLanes) {
         // Past the end the last one is done again.
-        const auto load = [&](size_t lane) { return loadFloat4(&vertices[std::min(i + lane, vertices.size() - 1)]); };
+        const auto load = [&](size_t lane) { return positions.at(first + std::min(i + lane, count - 1)); };
         Float4 x = load(0), y = load(1), z = load(2), unused = load(3);
         transpose(x, y, z, unused);
         const auto row = [&](int r) { return (m[0][r] * x + m[1][r] * y) + (m[2][r] * z + m[3][r]); };
@@ -163,11 +163,11 @@ void TriangleCuller::project(const TriangleView& view, std::span<const Vertex> v
 }
 
 Q3RT_NEWER_PROCESSORS_TOO
-void TriangleCuller::cull(const TriangleView& view, std::span<const Vertex> vertices, std::vector<uint32_t>& indices,
+void TriangleCuller::cull(const TriangleView& view, const Positions& positions, std::vector<uint32_t>& indices,
                           size_t first, std::vector<uint32_t>* occluders) {
     if (first >= indices.size()) return;
     const auto [least, greatest] = rangeOf(std::span(indices).subspan(first));
-    project(view, vertices.subspan(least, greatest - least + 1));
+    project(view, positions, least, greatest - least + 1);
     const size_t end = indices.size() - (indices.size() - first) % 3;
     size_t kept = first;
     for (size_t i = first; i < end; i += 3 * kLanes) {
