@@ -56,6 +56,7 @@ struct Corners {
 class FourTriangles {
   public:
     FourTriangles(const TriangleView& view, const std::vector<Float4>& screen, const FourIndices& indices);
+    bool noneShows() const { return std::bit_cast<std::array<uint64_t, 2>>(m_mayShow) == std::array<uint64_t, 2>{}; }
     bool shows(size_t lane) const { return m_mayShow[lane] != 0 && (m_shows[lane] != 0 || coversSample(lane)); }
     bool large(size_t lane) const { return m_unplaced[lane] != 0 || std::abs(m_area[lane]) >= 2.0f * kLargePx; }
 
@@ -176,6 +177,7 @@ void TriangleCuller::cull(const TriangleView& view, const Positions& positions, 
         for (size_t k = 0; k < count; ++k)
             onScreen[k] = indices[i + k] - least;
         const FourTriangles triangles(view, m_screen, onScreen);
+        if (triangles.noneShows()) continue; // nearly always, of a model far away
         for (size_t lane = 0; lane < count / 3; ++lane) {
             if (!triangles.shows(lane)) continue;
             for (size_t k = 3 * lane; k < 3 * lane + 3; ++k) {
