@@ -152,9 +152,10 @@ const TracedView& TraceRenderer::prepareView(const FrameCommands& frame, const S
     buildViewGeometry(frame, scene, scene.view, world(), models(), materials(), viewGeometrySettings(), m_geometry);
     const std::span<const SceneLight> lights(frame.lights.data() + scene.firstLight, scene.lightCount);
     const std::span<const SceneEntity> entities(frame.entities.data() + scene.firstEntity, scene.entityCount);
-    m_views.push_back(m_scene->prepare(m_geometry, lights, {entities, scene.timeMs}));
+    RtFrame camera{};
+    describeView(scene, buffers, camera);
+    m_views.push_back(m_scene->prepare(camera, m_geometry, lights, {entities, scene.timeMs}));
     TracedView& view = m_views.back();
-    describeView(scene, buffers, view.frame);
     describeSettings(view.frame);
     constexpr float kEverywhere = std::numeric_limits<float>::max();
     view.frame.nearArea = vec4(-kEverywhere, -kEverywhere, kEverywhere, kEverywhere);

@@ -1,6 +1,7 @@
 #include "renderer_rt/traced_scene.hpp"
 
 #include "blue_noise.hpp"
+#include "renderer_rt/trim_effects.hpp"
 #include "scene/triangle_order.hpp"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/rt_noise.h"
@@ -229,11 +230,19 @@ void TracedScene::makeTrees(const ViewGeometry& geometry, TracedView& view) {
     view.frame.treeInstances = tree.instances;
 }
 
-TracedView TracedScene::prepare(const ViewGeometry& geometry, std::span<const SceneLight> lights,
+TracedView TracedScene::prepare(const RtFrame& camera, ViewGeometry& geometry, std::span<const SceneLight> lights,
                                 const PortalScene& portals) {
-    TracedView view;
+    TracedView view{.frame = camera};
+    RtFrame& frame = view.frame;
     m_builder->build(m_world, m_statics.get(), geometry, portals, *m_models, m_tables);
     view.counts = m_tables.counts;
+    if (m_lights) {
+        m_lights->describe(frame);
+        const std::vector<RtTriangleLight> moved = m_lights->moveTriangles(geometry);
+        if (!moved.empty()) frame.triangleLights = send(moved);
+        frame.lightColors = send(m_lights->colorsAt(geometry.entities[0].stage.shaderTimeSeconds));
+    }
+    trimEffects(camera, m_stages->states(), m_context.textures().parts(), m_tables, geometry);
     resolveDynamic(geometry, view);
     for (ModelPart* part : m_models->takeNew()) {
         ++view.counts[static_cast<size_t>(StructureClass::StaticEntity)].builds;
@@ -243,7 +252,6 @@ TracedView TracedScene::prepare(const ViewGeometry& geometry, std::span<const Sc
         makeInstances(geometry, view);
     else
         makeTrees(geometry, view);
-    RtFrame& frame = view.frame;
     frame.instances = send(m_tables.instances);
     frame.surfaces = send(m_tables.surfaces);
     frame.entities = send(m_tables.entities);
@@ -253,12 +261,6 @@ TracedView TracedScene::prepare(const ViewGeometry& geometry, std::span<const Sc
     frame.stages = send(m_stages->states());
     sendFogs(frame);
     sendLights(lights, frame);
-    if (m_lights) {
-        m_lights->describe(frame);
-        const std::vector<RtTriangleLight> moved = m_lights->moveTriangles(geometry);
-        if (!moved.empty()) frame.triangleLights = send(moved);
-        frame.lightColors = send(m_lights->colorsAt(geometry.entities[0].stage.shaderTimeSeconds));
-    }
     view.stagedCover = m_tables.hasStagedCover;
     if (m_tables.hasLayers) frame.flags |= kFrameLayers;
     if (m_tables.hasNear) frame.flags |= kFrameNearEntities;

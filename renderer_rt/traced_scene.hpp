@@ -36,8 +36,10 @@ class TracedScene {
     bool hasWorld() const { return m_statics != nullptr; }
 
     void beginFrame();
-    /// Tables of one view; nothing is recorded yet. `lights` are the view's dynamic ones.
-    TracedView prepare(const ViewGeometry& geometry, std::span<const SceneLight> lights, const PortalScene& portals);
+    /// Tables of one view; nothing is recorded yet. `camera` is the view's frame as far as it is known; `geometry`
+    /// loses what of effects shows nothing. `lights` are the view's dynamic ones.
+    TracedView prepare(const RtFrame& camera, ViewGeometry& geometry, std::span<const SceneLight> lights,
+                       const PortalScene& portals);
     /// Of the view prepared last.
     const ViewTables& tables() const { return m_tables; }
     /// Writes `view.frame` where the shaders find it.

@@ -281,12 +281,12 @@ bool DrawListBuilder::appendTrimmed(ViewWork& work, const DrawBatch& batch, uint
         const StageState& state = m_stages.states()[batch.stages.first + stage];
         const size_t texture = state.unit[0].texture;
         if (!isSquare(surface) || texture >= work.settings.textureParts.size()) return std::nullopt;
-        const EffectSquare square(std::span(work.out.vertices).subspan(firstVertex).first<4>(),
-                                  triangleView(work, batch));
+        const TriangleView view = triangleView(work, batch);
+        const EffectSquare square(std::span(work.out.vertices).subspan(firstVertex).first<4>(), view.clipFromModel,
+                                  view.sizePx);
         if (!square.usable()) return std::nullopt;
         const TextureParts& parts = work.settings.textureParts[texture];
-        const Stage& kind = m_materials.get(batch.material).stages[stage];
-        const TexturePart part = findPartShown(kind, state, parts, square.texelsPerPixel(parts.sizeTexels));
+        const TexturePart part = findPartShown(state, parts, square.texelsPerPixel(parts.sizeTexels));
         if (part.whole()) return std::nullopt;
         if (part.empty()) return part;
         const size_t first = work.out.vertices.size();

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "renderer_vk/draw_data.hpp"
-#include "renderer_vk/effect_trim.hpp"
+#include "scene/effect_trim.hpp"
 #include "renderer_vk/portal.hpp"
 #include "renderer_vk/raster_settings.hpp"
 #include "renderer_vk/shadow_volume.hpp"

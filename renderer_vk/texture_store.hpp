@@ -8,7 +8,7 @@
 #include "gpu/bindless_textures.hpp"
 #include "gpu/gpu_image.hpp"
 #include "gpu/uploader.hpp"
-#include "renderer_vk/effect_trim.hpp"
+#include "scene/effect_trim.hpp"
 #include "scene/texture.hpp"
 
 namespace q3rt {

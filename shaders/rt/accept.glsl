@@ -62,6 +62,19 @@ bool acceptHit(uint instance, uint triangle, vec2 barycentric, float t, vec3 dir
     return isCovered(found, SurfaceTable(rtFrame.surfaces).at[found.surface], barycentric);
 }
 
+// Most of a square of smoke is the margin of its texture.
+bool leavesSomething(Candidate candidate, vec2 barycentric)
+{
+    if ((candidate.surface.flags & kSurfacePartly) == 0u)
+        return true;
+    SceneTriangle found = candidate.triangle;
+    vec2 st = interpolate(loadVertexSt(found.vertices, found.vertex.x), loadVertexSt(found.vertices, found.vertex.y),
+                          loadVertexSt(found.vertices, found.vertex.z), barycentric);
+    uvec2 cell = uvec2(clamp(st * float(kShownSide), vec2(0.0), vec2(float(kShownSide - 1u))));
+    uint bit = cell.y * kShownSide + cell.x;
+    return (SurfaceTable(rtFrame.surfaces).at[found.surface].shown[bit >> 5u] >> (bit & 31u) & 1u) != 0u;
+}
+
 // Where a layer stands along the ray in drawing order. Layers in one plane (marks, decals, coats of paint) come at the
 // same distance but for rounding: the later drawn one is moved toward the eye by twice the error bound of a distance
 // for each step of the drawing order, at grazing angles by more, because there an error across the plane is a longer
@@ -71,7 +84,8 @@ float layerDistance(uint instance, uint triangle, vec2 barycentric, float t, vec
     countWork(kWorkLayer);
     Candidate candidate = findCandidate(instance, triangle);
     float size = length(candidate.facing);
-    if (size == 0.0 || !showsFrom(candidate.surface, candidate.facing, direction))
+    if (size == 0.0 || !showsFrom(candidate.surface, candidate.facing, direction) ||
+        !leavesSomething(candidate, barycentric))
         return -1.0;
     float cosine = abs(dot(candidate.facing, direction)) / size;
     return t - sameDistanceStep(t, length(origin), cosine) * float(candidate.surface.drawOrder);

@@ -48,6 +48,7 @@ SHARED_CONST kSurfaceFogged = 0x10u; // the fog covers it after its stages; othe
 SHARED_CONST kSurfaceWater = 0x20u;  // reflects by Fresnel's law as the boundary of a volume of water
 SHARED_CONST kSurfaceGlass = 0x40u;  // the same as a thin pane
 SHARED_CONST kSurfaceThin = 0x80u;   // takes light from both sides
+SHARED_CONST kSurfacePartly = 0x200u; // a square that holds its texture once; most of it is that one's margin
 SHARED_CONST kSurfaceModel = 0x100u; // lit by the light grid in the engine, and never less than kModelLeastLight
 
 // A run of triangles of one material, evaluated for this frame.
@@ -60,7 +61,10 @@ struct RtSurface {
     uint sky;       // index of RtSky if kSurfaceSky
     uint portal;    // 1 + index of RtPortal; 0: it leads nowhere
     uint cover;     // where one texel tells whether a point is covered: kCover* and the texture; 0: it takes the stages
+    uint shown[8];  // if kSurfacePartly: cells of texture coordinates in which it leaves something, a bit each, by rows
 };
+
+SHARED_CONST kShownSide = 16u; // cells
 
 SHARED_CONST kCoverTest = 0x3u; // kTest*, never kTestNone
 SHARED_CONST kCoverClamped = 0x4u;

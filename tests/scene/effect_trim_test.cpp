@@ -1,8 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "renderer_vk/effect_trim.hpp"
+#include "scene/effect_trim.hpp"
 
 namespace q3rt {
 namespace {
@@ -42,10 +43,9 @@ TEST(EffectTrim, WhatTouchesASideOfARepeatedTextureComesInAtTheOther) {
 class EffectStage : public testing::Test {
   protected:
     EffectStage() {
-        m_stage.blended = true;
-        m_stage.depthWrite = false;
-        m_stage.source = BlendFactor::SrcAlpha;
-        m_stage.destination = BlendFactor::One;
+        m_state.blended = 1;
+        m_state.sourceBlend = kBlendSrcAlpha;
+        m_state.destinationBlend = kBlendOne;
     }
     void turn(float degrees, float scale) {
         const float c = scale * std::cos(glm::radians(degrees)), s = scale * std::sin(glm::radians(degrees));
@@ -54,17 +54,16 @@ class EffectStage : public testing::Test {
         m_state.unit[0].mods[0].translate = vec2(0.5f) - 0.5f * vec2(c - s, s + c); // about the centre
     }
     TexturePart shown(float texelsPerPixel = 1.0f, bool clamp = true) const {
-        return findPartShown(m_stage, m_state, findTextureParts(makeTexture(6, 9, clamp)), texelsPerPixel);
+        return findPartShown(m_state, findTextureParts(makeTexture(6, 9, clamp)), texelsPerPixel);
     }
-    Stage m_stage;
     StageState m_state{};
 };
 
 TEST_F(EffectStage, HasAPartIfItsBlendKeepsWhatIsBehind) {
     EXPECT_FALSE(shown().whole());
-    m_stage.destination = BlendFactor::OneMinusSrcAlpha;
+    m_state.destinationBlend = kBlendOneMinusSrcAlpha;
     EXPECT_FALSE(shown().whole());
-    m_stage.destination = BlendFactor::Zero;
+    m_state.destinationBlend = kBlendZero;
     EXPECT_TRUE(shown().whole()) << "black where it is clear";
 }
 
@@ -109,26 +108,74 @@ TEST_F(EffectStage, IsLeftAloneWhereMipLevelsAreReadThatNobodyLookedAt) {
     EXPECT_TRUE(shown(17.0f).whole());
 }
 
+// Of a square of 4 qu that is 128 by 96 pixels.
+class EffectCells : public EffectStage {
+  protected:
+    EffectCells() {
+        mat4 clip(0.0f); // w = z
+        clip[0][0] = clip[1][1] = clip[2][2] = clip[2][3] = 1;
+        for (size_t i = 0; i < 4; ++i) {
+            m_square[i].st = vec2(i & 1, i >> 1);
+            m_square[i].position = vec3(m_square[i].st * 4.0f - 2.0f, 10.0f);
+        }
+        m_clip = clip;
+    }
+    SquareCells shown(int first, int last, bool clamp = true) const {
+        return findCellsShown(m_state, findTextureParts(makeTexture(first, last, clamp)),
+                              EffectSquare(m_square, m_clip, {640, 480}));
+    }
+    std::array<Vertex, 4> m_square{};
+    mat4 m_clip;
+};
+
+TEST_F(EffectCells, AreThoseThatFiltersReach) {
+    const SquareCells cells = shown(6, 9);
+    for (int t = 0; t < kSize; ++t) // a cell a texel; half a texel beyond the four, and the rounding
+        EXPECT_EQ(cells[static_cast<size_t>(t)], t >= 5 && t <= 10 ? 0x07e0 : 0) << t;
+}
+
+TEST_F(EffectCells, AreStripesBeyondAClampedSide) {
+    turn(0, 2);
+    const SquareCells cells = shown(0, 1);
+    EXPECT_EQ(cells[0], 0x003f)
+        << "its own texels begin at the fourth cell; half a texel is one cell, so is the stripe";
+    EXPECT_EQ(cells[7], 0) << "what is clear at the side is clear beyond it";
+    EXPECT_NE(shown(0, 1, false)[12], 0) << "begins anew";
+}
+
+TEST_F(EffectCells, AreAllIfTheTextureTurnsOrCoversOrIsReadTooCoarsely) {
+    const auto all = [](const SquareCells& cells) {
+        return std::ranges::all_of(cells, [](uint16_t row) { return row == 0xffff; });
+    };
+    EXPECT_FALSE(all(shown(6, 9)));
+    turn(30, 1);
+    EXPECT_TRUE(all(shown(6, 9)));
+    turn(0, 400);
+    EXPECT_TRUE(all(shown(6, 9)));
+    turn(0, 1);
+    m_state.destinationBlend = kBlendZero;
+    EXPECT_TRUE(all(shown(6, 9)));
+}
+
 class EffectSquareTest : public testing::Test {
   protected:
     EffectSquareTest() {
-        m_view.sizePx = vec2(640, 480);
-        m_view.clipFromModel = mat4(0.0f); // w = z
-        m_view.clipFromModel[0][0] = m_view.clipFromModel[1][1] = m_view.clipFromModel[2][2] = 1;
-        m_view.clipFromModel[2][3] = 1;
+        m_clip = mat4(0.0f); // w = z
+        m_clip[0][0] = m_clip[1][1] = m_clip[2][2] = 1;
+        m_clip[2][3] = 1;
         for (size_t i = 0; i < 4; ++i) {
             m_square[i].st = vec2(i & 1, i >> 1);
             m_square[i].position = vec3(m_square[i].st * 4.0f - 2.0f, 10.0f);
         }
     }
-    bool usable() const { return EffectSquare(m_square, m_view).usable(); }
-    TriangleView m_view;
+    bool usable() const { return EffectSquare(m_square, m_clip, {640, 480}).usable(); }
+    mat4 m_clip;
     std::array<Vertex, 4> m_square{};
 };
 
 TEST_F(EffectSquareTest, IsTheSamePlaneWithTheSameTextureOnIt) {
     std::array<Vertex, 4> part;
-    EffectSquare(m_square, m_view).write({vec2(0.25f, 0.5f), vec2(0.75f, 1.0f)}, part);
+    EffectSquare(m_square, m_clip, {640, 480}).write({vec2(0.25f, 0.5f), vec2(0.75f, 1.0f)}, part);
     EXPECT_EQ(part[0].st, vec2(0.25f, 0.5f));
     EXPECT_EQ(part[3].st, vec2(0.75f, 1.0f));
     for (const Vertex& vertex : part)
@@ -137,7 +184,7 @@ TEST_F(EffectSquareTest, IsTheSamePlaneWithTheSameTextureOnIt) {
 
 TEST_F(EffectSquareTest, CountsTexels) {
     // 4 qu at a distance of 10 are 0.4 of half the view: 128 by 96 pixels.
-    EXPECT_FLOAT_EQ(EffectSquare(m_square, m_view).texelsPerPixel(vec2(96)), 1.0f);
+    EXPECT_FLOAT_EQ(EffectSquare(m_square, m_clip, {640, 480}).texelsPerPixel(vec2(96)), 1.0f);
 }
 
 TEST_F(EffectSquareTest, IsLeftAloneIfItIsNoneOrTilted) {
