@@ -6,15 +6,15 @@
 #include <string>
 
 #include "renderer_vk/draw_data.hpp"
-#include "scene/effect_trim.hpp"
 #include "renderer_vk/portal.hpp"
 #include "renderer_vk/raster_settings.hpp"
 #include "renderer_vk/shadow_volume.hpp"
 #include "renderer_vk/sky.hpp"
 #include "renderer_vk/surface_lights.hpp"
-#include "scene/triangle_cull.hpp"
 #include "renderer_vk/visibility.hpp"
+#include "scene/effect_trim.hpp"
 #include "scene/entity_geometry.hpp"
+#include "scene/triangle_cull.hpp"
 
 namespace q3rt {
 

@@ -150,8 +150,8 @@ bool deformsWithView(const Material& material) { return std::ranges::any_of(mate
 Bounds deformedBounds(const Material& material, const Bounds& box) {
     if (box.empty()) return {};
     float reach = deformReachQu(material);
-    // A square turns about its middle, or about a line through it, and grows no larger.
-    if (material.deforms.size() == 1 && isSprite(material.deforms[0])) reach = 0.5f * glm::length(box.maxs - box.mins);
+    // Four corners turn about their mean, which lies in the box as they do: none is farther from it than the diagonal.
+    if (material.deforms.size() == 1 && isSprite(material.deforms[0])) reach = glm::length(box.maxs - box.mins);
     return std::isfinite(reach) ? Bounds{box.mins - reach, box.maxs + reach} : Bounds{};
 }
 
