@@ -90,7 +90,7 @@ GpuContext::GpuContext(EngineServices& engine, const RasterSettings& settings, b
     m_main = makeTargets(m_extent, "target");
     if (rasterizer && settings.r_renderScale != 100)
         m_scaledWorld = makeTargets(scaledExtent(m_extent, settings.r_renderScale), "scaled world");
-    m_ramp = std::make_unique<DisplayRamp>(*m_device, m_extent);
+    m_ramp = std::make_unique<DisplayRamp>(*m_device, m_extent, m_swapchain ? m_swapchain->format() : kTargetFormat);
 }
 
 GpuContext::~GpuContext() {
@@ -186,7 +186,7 @@ ImageId GpuContext::addScaling(FrameGraph& graph, ImageId picture, VkExtent2D ex
 
 void GpuContext::addPresent(FrameGraph& graph, ImageId target) {
     if (!m_swapchain || !m_swapchain->acquire(m_window->drawableExtent())) return;
-    if (m_ramp->changesPicture()) target = m_ramp->addPass(graph, target);
+    target = m_ramp->addTable(graph, target);
     ImageId screen = graph.importForeign("screen", m_swapchain->image(), m_swapchain->view(),
                                          {.extent = m_swapchain->extent(), .format = m_swapchain->format()});
     const VkExtent2D size = m_swapchain->extent();
@@ -204,6 +204,7 @@ void GpuContext::addPresent(FrameGraph& graph, ImageId target) {
             else
                 blit(pass, target, screen);
         });
+    screen = m_ramp->addDoublings(graph, screen);
     graph.addPass(
         "present",
         [&](PassBuilder& pass) {

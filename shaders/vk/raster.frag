@@ -41,38 +41,41 @@ bool alphaPasses(uint test, float alpha) {
     return true;
 }
 
-// Layers are blended in whole bytes, 0 to 255, as a frame buffer of bytes does it.
-vec4 toBytes(vec4 color) { return floor(clamp(color, 0.0, 1.0) * 255.0 + 0.5); }
-vec3 multiplyBytes(vec3 a, vec3 b) { return floor(a * b * (1.0 / 255.0) + 0.5); }
+// Layers are blended in whole bytes, as a frame buffer of bytes does it: all colours of layers are multiples of 1/255.
+vec3 wholeBytes(vec3 color) { return floor(color * 255.0 + 0.5) * (1.0 / 255.0); }
 
 // Part of `color` that a blend factor keeps. The frame buffer's alpha is 1.
 vec3 blendPart(vec3 color, uint factor, vec4 source, vec3 destination) {
     if (factor == kBlendZero || factor == kBlendOneMinusDstAlpha || factor == kBlendSrcAlphaSaturate) return vec3(0.0);
-    if (factor == kBlendSrcColor) return multiplyBytes(color, source.rgb);
-    if (factor == kBlendOneMinusSrcColor) return multiplyBytes(color, 255.0 - source.rgb);
-    if (factor == kBlendDstColor) return multiplyBytes(color, destination);
-    if (factor == kBlendOneMinusDstColor) return multiplyBytes(color, 255.0 - destination);
-    if (factor == kBlendSrcAlpha) return multiplyBytes(color, source.aaa);
-    if (factor == kBlendOneMinusSrcAlpha) return multiplyBytes(color, 255.0 - source.aaa);
+    if (factor == kBlendSrcColor) return wholeBytes(color * source.rgb);
+    if (factor == kBlendOneMinusSrcColor) return wholeBytes(color * (1.0 - source.rgb));
+    if (factor == kBlendDstColor) return wholeBytes(color * destination);
+    if (factor == kBlendOneMinusDstColor) return wholeBytes(color * (1.0 - destination));
+    if (factor == kBlendSrcAlpha) return wholeBytes(color * source.aaa);
+    if (factor == kBlendOneMinusSrcAlpha) return wholeBytes(color * (1.0 - source.aaa));
     return color;
 }
 
 vec3 layOver(vec3 below, uint state, uint number, vec2 st, vec4 color) {
-    vec4 exact = texture(textures[number], st);
-    if ((state & kLayerWhite) == 0u) exact *= color;
-    vec4 source = toBytes(exact);
+    vec4 source = texture(textures[number], st); // whole bytes where a filter gives such: a processor's
+    float alpha = source.a;
+    if ((state & kLayerWhite) == 0u) {
+        source *= color;
+        alpha = source.a;
+        source = vec4(wholeBytes(source.rgb), wholeBytes(source.aaa).x);
+    }
     vec3 blended = blendPart(source.rgb, state & 15u, source, below) +
                    blendPart(below, (state >> kLayerDestinationShift) & 15u, source, below);
-    bool passes = alphaPasses((state >> kLayerTestShift) & 3u, exact.a);
-    return passes ? min(blended, 255.0) : below;
+    bool passes = alphaPasses((state >> kLayerTestShift) & 3u, alpha);
+    return passes ? min(blended, 1.0) : below;
 }
 
 vec3 layersOver(vec4 first) {
-    vec3 color = toBytes(first).rgb;
+    vec3 color = wholeBytes(first.rgb);
     color = layOver(color, kLayer1, inLayerTextures.x, inLayerSt[0], inLayerColor[0]);
     if (kLayers > 2u) color = layOver(color, kLayer2, inLayerTextures.y, inLayerSt[1], inLayerColor[1]);
     if (kLayers > 3u) color = layOver(color, kLayer3, inLayerTextures.z, inLayerSt[2], inLayerColor[2]);
-    return color / 255.0;
+    return color;
 }
 
 void main() {
