@@ -19,7 +19,7 @@ VkBool32 VKAPI_PTR onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtil
                              const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
     const std::string text = data->pMessage ? data->pMessage : "(no text)";
     static_cast<std::vector<std::string>*>(user)->push_back(text);
-    logLineOnce(LogLevel::Warning, "Vulkan validation: %s", text.c_str());
+    logLineOnce(LogLevel::Error, "Vulkan validation: %s", text.c_str()); // who asked for it sees all of them
     return VK_FALSE;
 }
 
